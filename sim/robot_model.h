@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace umbsim {
+
+/// Mass properties of a rigid body in the frame named beside the member.
+struct Inertial {
+  double mass_kg = 0;
+  Eigen::Vector3d com_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d inertia_kgm2 = Eigen::Matrix3d::Zero();  ///< about the centre of mass
+};
+
+/// A driven wheel. Frame: the robot's base frame (origin in the middle between both wheel centres, x forward,
+/// y left, z up).
+struct Wheel {
+  std::string joint;
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitY();  ///< of rotation; turning about +y rolls forward
+  double radius_m = 0;
+  double width_m = 0;          ///< of the collision cylinder; 0 for a sphere
+  double mass_kg = 0;
+  double spin_inertia_kgm2 = 0;       ///< about the axis
+  double transverse_inertia_kgm2 = 0; ///< about a diameter
+  double effort_limit_nm = 0;  ///< from the URDF's <limit>; 0 if it gives none
+};
+
+/// A support that is not driven: a fixed ball, or a wheel that swivels about an upright axis.
+struct Caster {
+  std::string link;
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< of the ball or of the caster wheel, base frame, swivel angle 0
+  double radius_m = 0;
+  bool swivels = false;
+  // Swivelling casters only.
+  Eigen::Vector3d swivel_point_m = Eigen::Vector3d::Zero();  ///< a point on the swivel axis, base frame
+  Inertial fork;                       ///< the swivelling part without its wheel; base frame at swivel angle 0
+  double wheel_mass_kg = 0;
+  double wheel_spin_inertia_kgm2 = 0;
+  double wheel_transverse_inertia_kgm2 = 0;
+};
+
+/// A differential-drive robot as plain data: what the URDF says, reduced to the bodies that matter.
+/// Everything fixed to the base (and passive links that do not touch the floor) is lumped into `base`.
+struct RobotModel {
+  std::string name;
+  std::string urdf;  ///< file name without folders
+  Inertial base;     ///< base frame
+  std::array<Wheel, 2> wheels;  ///< left, right
+  std::vector<Caster> casters;
+
+  double wheelbase_m() const { return (wheels[0].centre_m - wheels[1].centre_m).norm(); }
+  double total_mass_kg() const;
+};
+
+/// Names of the drive joints where the URDF alone does not tell. Empty: find them.
+struct DriveJoints {
+  std::string left;
+  std::string right;
+};
+
+/// Reads a differential-drive URDF. Drive joints are those named, or the two continuous joints whose axes are
+/// collinear (left is the one on the side of +y). Throws InputError naming file, link and joint: not a URDF, missing or
+/// non-positive inertia, a massless link, no wheel shape, two candidates for a wheel, more than two drive wheels
+/// (skid steer), no third support.
+RobotModel load_robot(const std::string& urdf_file, const DriveJoints& joints = {});
+
+}  // namespace umbsim
