@@ -12,11 +12,12 @@ std::uint64_t mix(std::uint64_t& state) {
 }
 
 std::mt19937_64 seeded(std::uint64_t seed, std::string_view name, std::uint64_t index) {
+  // Mixed after every part: neighbouring seeds and indices, and names alike but for a letter, must not meet.
   std::uint64_t state = seed;
-  mix(state);
+  state = mix(state);
   for (const unsigned char c : name) {
     state ^= c;
-    mix(state);
+    state = mix(state);
   }
   state ^= index;
   std::uint64_t a = mix(state);

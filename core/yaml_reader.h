@@ -32,6 +32,9 @@ struct Bounds {
 class YamlValue {
  public:
   YamlValue(YAML::Node node, std::string file, std::string path);
+  YamlValue(const YamlValue&) = default;
+  /// Makes this value stand for the other one. (YAML::Node's own assignment would overwrite the document.)
+  YamlValue& operator=(const YamlValue& other);
 
   /// Parses a whole file. Throws InputError if it cannot be read, is not YAML, or has a duplicate key anywhere.
   static YamlValue load(const std::string& file);

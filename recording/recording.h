@@ -35,7 +35,7 @@ struct RecordedBump {
 
 /// What the experimenter believes of the robot, not what is true.
 struct RecordedRobot {
-  std::string urdf;  ///< empty if not given
+  std::string urdf;  ///< name of a file in robots/ or beside recording.yaml, without folders; empty if not given
   double wheel_radius_m = 0;
   double wheelbase_m = 0;
   double ticks_per_revolution = 0;

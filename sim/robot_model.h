@@ -35,6 +35,7 @@ struct Caster {
   std::string link;
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< of the ball or of the caster wheel, base frame, swivel angle 0
   double radius_m = 0;
+  double friction = 0;  ///< of a fixed ball against the floor (a swivelling wheel has the floor's)
   bool swivels = false;
   // Swivelling casters only.
   Eigen::Vector3d swivel_point_m = Eigen::Vector3d::Zero();  ///< a point on the swivel axis, base frame

@@ -1,0 +1,169 @@
+"use strict";
+
+// The tables, in the lecture's order. Each function returns HTML, or "" if the data lacks its part.
+
+// rows: [[heading, cell, ...]]; rows without any value are left out.
+function table(caption, head, rows, textColumns = 0) {
+  const kept = rows.filter((row) => row.slice(1).some((cell) => cell !== "\u2013"));
+  if (!kept.length) return "";
+  const css = (i) => (i <= textColumns ? ' class="text"' : "");
+  const thead = head.map((h, i) => `<th scope="col"${css(i)}>${h}</th>`).join("");
+  const body = kept.map((row) => `<tr><th scope="row">${row[0]}</th>` + row.slice(1).map((c, i) => `<td${css(i + 1)}>${c}</td>`).join("") + "</tr>");
+  return `<div class="table-wrap" tabindex="0" role="region" aria-label="${escapeHtml(caption)}"><table><caption>${caption}</caption>` +
+    `<thead><tr>${thead}</tr></thead><tbody>${body.join("")}</tbody></table></div>`;
+}
+
+const section = (heading, html) => (html ? `<section><h2>${heading}</h2>${html}</section>` : "");
+
+function oneWayHtml(data) {
+  const one = data.summary.one_way;
+  if (!one) return "";
+  const warning =
+    one.warning || "One error can hide the other when the square is driven in one direction only: this test is unfit for differential drives.";
+  return (
+    `<p class="notice"><b>Read with care.</b> ${escapeHtml(warning)}</p>` +
+    table(`One-way square, ${escapeHtml(directionName(one.direction))}`, ["Quantity", "Value"], [
+      ["r<sub>cg</sub> (mm)", mm(one.r_cg_m)],
+      ["mean heading error (°)", deg(one.e_theta_rad)],
+    ]) +
+    `<p class="note muted">A robot that turns only 87° at each corner and drives its legs on a slight curve can still come back to
+     its start. Driven the other way round, what cancelled adds up. Therefore the two-way test.</p>`
+  );
+}
+
+function umbmarkHtml(data) {
+  const before = data.summary.umbmark || {};
+  const after = clustersOf(data, "after");
+  const suffix = after.cw || after.ccw ? " before" : "";
+  const columns = [
+    [`cw${suffix}`, before.cw],
+    [`ccw${suffix}`, before.ccw],
+    ["cw after", after.cw],
+    ["ccw after", after.ccw],
+  ].filter(([, c]) => c && isNumber(c.centroid_x_m));
+  if (!columns.length) return "";
+  const lengths = ["centroid_x_m", "centroid_y_m", "r_cg_m", "sd_x_m", "sd_y_m", "sd_m", "standard_error_m"];
+  const length = (key) => columns.map(([, c]) => mm(c[key], mmDecimals(lengths.map((l) => c[l]))));
+  const angle = (key) => columns.map(([, c]) => deg(c[key]));
+  const spread = (cells) => cells.map((cell, i) => (columns[i][1].runs === 1 ? "\u2013" : cell));  // one run has none
+  const eMax = columns.map(([name]) => {
+    const value = name === `${worst(before)}${suffix}` ? before.e_max_syst_m : name === `${worst(after)} after` ? eMaxOf(after) : undefined;
+    return isNumber(value) ? `<b>${mm(value)}</b>` : "\u2013";
+  });
+  return table("Centres of gravity and spread of the end points", ["Quantity", ...columns.map(([name]) => name)], [
+    ["runs", ...columns.map(([, c]) => (isNumber(c.runs) ? String(c.runs) : "\u2013"))],
+    ["x<sub>cg</sub> (mm)", ...length("centroid_x_m")],
+    ["y<sub>cg</sub> (mm)", ...length("centroid_y_m")],
+    ["r<sub>cg</sub> (mm)", ...length("r_cg_m")],
+    [`${E_MAX}, the larger (mm)`, ...eMax],
+    ["sd x (mm)", ...spread(length("sd_x_m"))],
+    ["sd y (mm)", ...spread(length("sd_y_m"))],
+    ["sd along one axis (mm)", ...spread(length("sd_m"))],
+    ["standard error of the centre (mm)", ...spread(length("standard_error_m"))],
+    ["mean heading error (°)", ...angle("heading_rad")],
+    ["sd heading (°)", ...spread(angle("sd_heading_rad"))],
+  ]) + `<p class="note muted">r<sub>cg</sub> = \u221a(x<sub>cg</sub>² + y<sub>cg</sub>²). With r<sub>cg</sub> below about three
+    standard errors, a further calibration would only fit the noise.</p>`;
+}
+
+function worst(clusters) {
+  if (!clusters.cw || !clusters.ccw) return undefined;
+  return clusters.cw.r_cg_m >= clusters.ccw.r_cg_m ? "cw" : "ccw";
+}
+
+function returnErrorsHtml(data) {
+  const runs = data.runs.filter(hasError);
+  const decimals = {};
+  for (const run of runs) {
+    const stage = runs.filter((r) => r.stage === run.stage);
+    decimals[run.stage] ??= mmDecimals(stage.flatMap((r) => [r.error.x_m, r.error.y_m]));
+  }
+  return table("Return error of every run: absolute \u2212 calculated", ["Run", "Stage", "e<sub>x</sub> (mm)", "e<sub>y</sub> (mm)", "distance (mm)", "e<sub>\u03b8</sub> (°)"],
+    runs.map((r) => {
+      const d = decimals[r.stage];
+      const { x_m, y_m, theta_rad } = r.error;
+      return [`${markerIcon(r.direction, r.stage)}${escapeHtml(r.id)}`, escapeHtml(stageName(r.stage)), mm(x_m, d), mm(y_m, d), mm(Math.hypot(x_m, y_m), d), deg(theta_rad, 3)];
+    }), 1);
+}
+
+function extendedHtml(data) {
+  const e = data.summary.extended;
+  if (!e) return "";
+  return table("Mean absolute heading error", ["Quantity", "Value (°)"], [
+    ["cw runs", deg(e.cw_mean_abs_heading_error_rad)],
+    ["ccw runs", deg(e.ccw_mean_abs_heading_error_rad)],
+    ["extended UMBmark figure (sum of both)", `<b>${deg(e.mean_abs_heading_error_rad)}</b>`],
+    ["per bump", deg(e.per_bump_heading_error_rad)],
+  ]) + `<p class="note muted">Cables under the inner wheel stand for an uneven floor. Each turns the robot by a fixed angle towards the
+    bumped wheel. Where the robot ends depends on where the cables lie; how much it has turned does not. So the measure here is the
+    heading: for each direction the mean of |e<sub>\u03b8</sub> \u2212 mean of the plain runs|, absolute so that +1° and \u22121° do not
+    cancel.</p>`;
+}
+
+function calibrationHtml(data) {
+  const { umbmark = {}, calibration = {}, injected } = data.summary;
+  const columns = [
+    ["from end points", { ...umbmark.endpoint, ...calibration.endpoint }],
+    ["from headings", { ...umbmark.heading, ...calibration.heading }],
+    ["injected", injected || {}],
+  ].filter(([, c]) => Object.values(c).some(isNumber));
+  const row = (name, value) => [name, ...columns.map(([, c]) => value(c))];
+  const b = data.wheelbase_m;
+  const html = table("The two dominant systematic errors", ["Quantity", ...columns.map(([name]) => name)], [
+    row("\u03b1, type A, per turn (°)", (c) => deg(c.alpha_rad, 4)),
+    row("\u03b2, type B, per leg (°)", (c) => deg(c.beta_rad, 4)),
+    row("R, radius of curvature of a leg (m)", (c) => curvature(c.beta_rad, data.side_m)),
+    row("E<sub>d</sub> = D<sub>R</sub> / D<sub>L</sub>", (c) => fixed(c.e_d, 5)),
+    row("E<sub>b</sub> = b<sub>actual</sub> / b<sub>nominal</sub>", (c) => fixed(c.e_b, 5)),
+    row("b<sub>actual</sub> (mm)", (c) => (isNumber(b) && isNumber(c.e_b) ? mm(c.e_b * b, 2) : "\u2013")),
+    row("c<sub>L</sub> = 2 / (E<sub>d</sub> + 1)", (c) => (isNumber(c.e_d) ? fixed(2 / (c.e_d + 1), 5) : "\u2013")),
+    row("c<sub>R</sub> = 2 / (1/E<sub>d</sub> + 1)", (c) => (isNumber(c.e_d) ? fixed(2 / (1 / c.e_d + 1), 5) : "\u2013")),
+  ]);
+  return html && html + sharesHtml(umbmark) + TYPE_TEXT;
+}
+
+function curvature(beta, side) {
+  if (!isNumber(beta) || !isNumber(side)) return "\u2013";
+  const radius = side / 2 / Math.sin(beta / 2);
+  return Math.abs(radius) < 1e6 ? fixed(radius, 1) : "straight";
+}
+
+function sharesHtml({ type_a_share: a, type_b_share: b }) {
+  return isNumber(a) && isNumber(b) ? `<p>Here type A makes ${fixed(a * 100, 0)}&nbsp;% and type B ${fixed(b * 100, 0)}&nbsp;% of the error.</p>` : "";
+}
+
+const TYPE_TEXT =
+  `<p class="note muted"><b>Type A</b> changes the total turn alike in both directions. It comes from the wheelbase (E<sub>b</sub>): a robot
+   that turns 85° when told 90° turns 4 \u00d7 85° = 340° either way. <b>Type B</b> acts in opposite senses: with unequal wheels
+   (E<sub>d</sub>) every leg is an arc, so one direction turns too far in all and the other too little. They occur together; only the sum
+   and the difference of the two directions tell them apart. The end-point form is the published one (small angles); the form from
+   headings is exact.</p>`;
+
+function recoveryHtml(data) {
+  const r = data.summary.recovery;
+  if (!r) return "";
+  const before = (data.summary.umbmark || {}).e_max_syst_m;
+  return "<h3>Driven again with the calibrated odometry</h3>" + table("What was recovered", ["Quantity", "Value"], [
+    [`${E_MAX} before (mm)`, mm(before)],
+    [`${E_MAX} after (mm)`, mm(r.e_max_after_m)],
+    ["improvement, factor", factor(r.improvement)],
+    ["E<sub>d</sub>, recovered \u2212 injected", signedSmall(r.e_d_error)],
+    ["E<sub>b</sub>, recovered \u2212 injected", signedSmall(r.e_b_error)],
+    ["calibration passes", isNumber(r.passes) ? String(r.passes) : "\u2013"],
+  ]) + `<p class="note muted">The squares are driven anew; nothing here is predicted by algebra. On the real LabMate of the original
+    paper the factor was 10 to 22. The mean wheel diameter stays as it was: no closed square can observe it.</p>`;
+}
+
+function costHtml(data) {
+  const c = data.summary.cost;
+  if (!c) return "";
+  const speed = isNumber(c.simulated_s) && c.wall_s > 0 ? factor(c.simulated_s / c.wall_s) : "\u2013";
+  const count = (v) => (isNumber(v) ? v.toLocaleString("en").replace(/,/g, "\u202f") : "\u2013");
+  return table("What the run took", ["Quantity", "Value"], [
+    ["simulated time (s)", fixed(c.simulated_s, 1)],
+    ["computing time (s)", fixed(c.wall_s, 2)],
+    ["times faster than real time", speed],
+    ["physics steps", count(c.steps)],
+    ["solver fallbacks", count(c.solver_fallbacks)],
+  ]);
+}

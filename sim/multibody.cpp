@@ -1,0 +1,233 @@
+#include "sim/multibody.h"
+
+#include <Eigen/Eigenvalues>
+
+namespace umbsim {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+btVector3 to_bullet(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+btQuaternion to_bullet(const Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+
+Matrix3d skew(const Vector3d& v) {
+  Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+Matrix3d exponential(const Vector3d& rotation_vector) {
+  const double angle = rotation_vector.norm();
+  if (angle < 1e-12) return Matrix3d::Identity() + skew(rotation_vector);
+  return Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix();
+}
+
+// Integral of exp(s [w]) over s in [0, 1]: what constant twists do to positions (the left Jacobian of SO(3)).
+Matrix3d left_jacobian(const Vector3d& w) {
+  const double angle2 = w.squaredNorm();
+  const Matrix3d W = skew(w);
+  if (angle2 < 1e-8) return Matrix3d::Identity() + (0.5 - angle2 / 24) * W + (1.0 / 6 - angle2 / 120) * W * W;
+  const double angle = std::sqrt(angle2);
+  return Matrix3d::Identity() + (1 - std::cos(angle)) / angle2 * W +
+         (angle - std::sin(angle)) / (angle2 * angle) * W * W;
+}
+
+// A right-handed frame whose y axis is `axis`.
+Matrix3d frame_about(const Vector3d& axis) {
+  Matrix3d R;
+  R.col(1) = axis;
+  R.col(2) = axis.cross(axis.unitOrthogonal()).normalized();
+  R.col(0) = R.col(1).cross(R.col(2));
+  return R;
+}
+
+Matrix3d principal_axes(const Matrix3d& inertia) {
+  const Matrix3d off = inertia - Matrix3d(inertia.diagonal().asDiagonal());
+  if (off.cwiseAbs().maxCoeff() < 1e-12 * inertia.trace()) return Matrix3d::Identity();
+  Matrix3d R = Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia).eigenvectors();
+  if (R.determinant() < 0) R.col(0) *= -1;
+  return R;
+}
+
+}  // namespace
+
+// A body on its way into Bullet: its principal frame L and centre of mass, seen from the base frame.
+struct MultiBody::Part {
+  int link = -1;
+  double mass_kg = 0;
+  Vector3d com_m = Vector3d::Zero();
+  Matrix3d R_BL = Matrix3d::Identity();
+  Vector3d moments_kgm2 = Vector3d::Zero();
+
+  static Part of(const Inertial& inertial) {
+    const Matrix3d R = principal_axes(inertial.inertia_kgm2);
+    return {-1, inertial.mass_kg, inertial.com_m, R, (R.transpose() * inertial.inertia_kgm2 * R).diagonal()};
+  }
+  static Part wheel(double mass_kg, const Vector3d& centre_m, const Vector3d& axis, double spin_kgm2,
+                    double transverse_kgm2) {
+    return {-1, mass_kg, centre_m, frame_about(axis), {transverse_kgm2, spin_kgm2, transverse_kgm2}};
+  }
+};
+
+MultiBody::MultiBody(const RobotModel& robot, double gravity_mps2) : gravity_mps2_(gravity_mps2) {
+  int links = 2;
+  for (const Caster& caster : robot.casters) links += caster.swivels ? 2 : 0;
+  constant_mass_ = links == 2;
+
+  const Part base = Part::of(robot.base);
+  R_BK_ = base.R_BL;
+  com_B_ = base.com_m;
+  body_ = std::make_unique<btMultiBody>(links, base.mass_kg, to_bullet(base.moments_kgm2), false, false);
+  build_wheels(robot);
+  build_casters(robot);
+  body_->finalizeMultiDof();
+  body_->setLinearDamping(0);
+  body_->setAngularDamping(0);
+  body_->setUseGyroTerm(true);
+  body_->setMaxCoordinateVelocity(1e6);
+  body_->addBaseForce(btVector3(0, 0, -gravity_mps2 * base.mass_kg));
+  for (int i = 0; i < links; ++i) body_->addLinkForce(i, btVector3(0, 0, -gravity_mps2 * link_mass_[i]));
+  inverse_mass_.resize(dofs(), dofs());
+  set_pose(Quaterniond::Identity(), Vector3d::Zero());
+}
+
+void MultiBody::build_wheels(const RobotModel& robot) {
+  for (const Wheel& w : robot.wheels) {
+    add_part(Part::wheel(w.mass_kg, w.centre_m, w.axis, w.spin_inertia_kgm2, w.transverse_inertia_kgm2), -1,
+             {-1, w.centre_m, w.axis});
+  }
+}
+
+void MultiBody::build_casters(const RobotModel& robot) {
+  for (const Caster& c : robot.casters) {
+    if (!c.swivels) {
+      caster_wheel_joint_.push_back(-1);
+      continue;
+    }
+    const int fork = add_part(Part::of(c.fork), -1, {-1, c.swivel_point_m, Vector3d::UnitZ()});
+    const int wheel = add_part(Part::wheel(c.wheel_mass_kg, c.centre_m, Vector3d::UnitY(), c.wheel_spin_inertia_kgm2,
+                                           c.wheel_transverse_inertia_kgm2),
+                               fork, {fork, c.centre_m, Vector3d::UnitY()});
+    caster_wheel_joint_.push_back(wheel);
+  }
+}
+
+int MultiBody::add_part(const Part& part, int parent, const Joint& hinge) {
+  const int link = int(joints_.size());
+  const Matrix3d R_BP = parent < 0 ? R_BK_ : part_R_BL_[parent];
+  const Vector3d parent_com_m = parent < 0 ? com_B_ : part_com_m_[parent];
+  const Matrix3d R_LB = part.R_BL.transpose();
+  body_->setupRevolute(link, part.mass_kg, to_bullet(part.moments_kgm2), parent,
+                       to_bullet(Quaterniond(Matrix3d(R_LB * R_BP))), to_bullet(R_LB * hinge.axis),
+                       to_bullet(R_BP.transpose() * (hinge.pivot_m - parent_com_m)),
+                       to_bullet(R_LB * (part.com_m - hinge.pivot_m)), true);
+  joints_.push_back(hinge);
+  link_mass_.push_back(part.mass_kg);
+  part_R_BL_.push_back(part.R_BL);
+  part_com_m_.push_back(part.com_m);
+  return link;
+}
+
+void MultiBody::set_pose(const Quaterniond& q_WB, const Vector3d& p_WB) {
+  q_WB_ = q_WB.normalized();
+  R_WB_ = q_WB_.toRotationMatrix();
+  p_WB_ = p_WB;
+  body_->setBasePos(to_bullet(p_WB_ + R_WB_ * com_B_));
+  body_->setWorldToBaseRot(to_bullet((q_WB_ * Quaterniond(R_BK_)).conjugate()));
+}
+
+void MultiBody::set_joint_angle(int joint, double angle_rad) { body_->setJointPos(joint, angle_rad); }
+
+DofVector MultiBody::velocity() const {
+  DofVector u(dofs());
+  u.head<3>() = R_WB_.transpose() * to_eigen(body_->getBaseOmega());
+  u.segment<3>(3) = R_WB_.transpose() * to_eigen(body_->getBaseVel());
+  for (int j = 0; j < int(joints_.size()); ++j) u[6 + j] = body_->getJointVel(j);
+  return u;
+}
+
+void MultiBody::set_velocity(const DofVector& u) {
+  body_->setBaseOmega(to_bullet(R_WB_ * u.head<3>()));
+  body_->setBaseVel(to_bullet(R_WB_ * u.segment<3>(3)));
+  for (int j = 0; j < int(joints_.size()); ++j) body_->setJointVel(j, u[6 + j]);
+}
+
+DofVector MultiBody::free_velocity(double step_s) {
+  body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(step_s, scratch_r_, scratch_v_, scratch_m_, false, false,
+                                                              false);
+  return velocity();
+}
+
+const DofMatrix& MultiBody::inverse_mass() {
+  if (!constant_mass_ || !have_inverse_mass_) compute_inverse_mass();
+  have_inverse_mass_ = true;
+  return inverse_mass_;
+}
+
+// Column by column from Bullet's unit responses; needs a preceding free_velocity at this configuration.
+void MultiBody::compute_inverse_mass() {
+  double force[kMaxDofs], response[kMaxDofs];
+  for (int column = 0; column < dofs(); ++column) {
+    std::fill(force, force + dofs(), 0.0);
+    if (column < 6) {
+      const Vector3d axis = R_WB_.col(column % 3);
+      std::copy(axis.data(), axis.data() + 3, force + 3 * (column / 3));
+    } else {
+      force[column] = 1;
+    }
+    body_->calcAccelerationDeltasMultiDof(force, response, scratch_r_, scratch_v_);
+    inverse_mass_.col(column).head<3>() = R_WB_.transpose() * Eigen::Map<Vector3d>(response);
+    inverse_mass_.col(column).segment<3>(3) = R_WB_.transpose() * Eigen::Map<Vector3d>(response + 3);
+    for (int j = 6; j < dofs(); ++j) inverse_mass_(j, column) = response[j];
+  }
+  inverse_mass_ = (0.5 * (inverse_mass_ + inverse_mass_.transpose())).eval();
+}
+
+void MultiBody::integrate(const DofVector& u, double step_s) {
+  const Vector3d turn = u.head<3>() * step_s;
+  const Vector3d origin_velocity = u.segment<3>(3) - u.head<3>().cross(com_B_);
+  const Vector3d p_WB = p_WB_ + R_WB_ * (left_jacobian(turn) * origin_velocity) * step_s;
+  for (int j = 0; j < int(joints_.size()); ++j) set_joint_angle(j, joint_angle(j) + step_s * u[6 + j]);
+  set_pose(Quaterniond(Matrix3d(R_WB_ * exponential(turn))), p_WB);
+}
+
+Joint MultiBody::current(int joint) const {
+  Joint j = joints_[joint];
+  if (j.parent < 0) return j;
+  const Joint& fork = joints_[j.parent];
+  const Matrix3d swing = Eigen::AngleAxisd(joint_angle(j.parent), fork.axis).toRotationMatrix();
+  j.pivot_m = fork.pivot_m + swing * (j.pivot_m - fork.pivot_m);
+  j.axis = swing * j.axis;
+  return j;
+}
+
+DofVector MultiBody::jacobian(int joint, const Vector3d& point_m, const Vector3d& direction) const {
+  DofVector row = DofVector::Zero(dofs());
+  row.head<3>() = (point_m - com_B_).cross(direction);
+  row.segment<3>(3) = direction;
+  for (int j = joint; j >= 0; j = joints_[j].parent) {
+    const Joint at = current(j);
+    row[6 + j] = at.axis.cross(point_m - at.pivot_m).dot(direction);
+  }
+  return row;
+}
+
+double MultiBody::energy() const {
+  btAlignedObjectArray<btVector3> omega, velocity;
+  omega.resize(body_->getNumLinks() + 1);
+  velocity.resize(body_->getNumLinks() + 1);
+  body_->compTreeLinkVelocities(&omega[0], &velocity[0]);
+  double kinetic = body_->getBaseMass() * velocity[0].length2() + omega[0].dot(body_->getBaseInertia() * omega[0]);
+  double potential = body_->getBaseMass() * gravity_mps2_ * body_->getBasePos().z();
+  for (int i = 0; i < body_->getNumLinks(); ++i) {
+    const btMultibodyLink& link = body_->getLink(i);
+    kinetic += link.m_mass * velocity[i + 1].length2() + omega[i + 1].dot(link.m_inertiaLocal * omega[i + 1]);
+    potential += link.m_mass * gravity_mps2_ * body_->localPosToWorld(i, btVector3(0, 0, 0)).z();
+  }
+  return kinetic / 2 + potential;
+}
+
+}  // namespace umbsim

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "sim/robot_model.h"
+
+namespace umbsim {
+
+/// Degrees of freedom that a robot may have: six of the base, two wheels, and two for each of four casters.
+constexpr int kMaxDofs = 16;
+using DofVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxDofs, 1>;
+using DofMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kMaxDofs, kMaxDofs>;
+
+/// One moving part beside the base: a drive wheel, a caster's fork, or a caster's wheel.
+struct Joint {
+  int parent = -1;           ///< index of the joint that carries this one; -1: the base
+  Eigen::Vector3d pivot_m;   ///< base frame at zero joint angles
+  Eigen::Vector3d axis;      ///< base frame at zero joint angles
+};
+
+/// The robot as a Bullet btMultiBody, seen in base-frame coordinates.
+/// A velocity vector u is (base angular velocity, velocity of the base's centre of mass, joint speeds), the first two
+/// resolved in the base frame.
+class MultiBody {
+ public:
+  MultiBody(const RobotModel& robot, double gravity_mps2);
+
+  int dofs() const { return 6 + int(joints_.size()); }
+  const std::vector<Joint>& joints() const { return joints_; }
+
+  /// Joints 0 and 1 are the left and right drive wheel; caster i's fork and wheel follow for swivelling casters.
+  int caster_wheel_joint(int caster) const { return caster_wheel_joint_[caster]; }
+
+  void set_pose(const Eigen::Quaterniond& R_WB, const Eigen::Vector3d& p_WB);
+  const Eigen::Matrix3d& rotation() const { return R_WB_; }
+  const Eigen::Quaterniond& quaternion() const { return q_WB_; }
+  const Eigen::Vector3d& position() const { return p_WB_; }
+  double joint_angle(int joint) const { return body_->getJointPos(joint); }
+  void set_joint_angle(int joint, double angle_rad);
+  DofVector velocity() const;
+  void set_velocity(const DofVector& u);
+
+  /// Velocity after `step_s` under gravity and gyroscopic forces, without contacts and motors. Bullet's
+  /// articulated-body algorithm.
+  DofVector free_velocity(double step_s);
+  /// M^-1, (dofs, dofs), for the same coordinates. Constant, hence computed once, where no caster swivels: the
+  /// drive wheels are bodies of revolution.
+  const DofMatrix& inverse_mass();
+
+  /// Moves the pose for `step_s` with constant base-frame velocity u (the exponential map), and the joints.
+  void integrate(const DofVector& u, double step_s);
+
+  /// Row of the contact Jacobian: velocity along `direction` of the material point `point_m` of the part behind
+  /// `joint` (-1: the base). All in the base frame.
+  DofVector jacobian(int joint, const Eigen::Vector3d& point_m, const Eigen::Vector3d& direction) const;
+
+  /// Current pivot and axis of a joint in the base frame.
+  Joint current(int joint) const;
+  double energy() const;
+
+ private:
+  struct Part;
+  int add_part(const Part& part, int parent, const Joint& hinge);
+  void build_wheels(const RobotModel& robot);
+  void build_casters(const RobotModel& robot);
+  void compute_inverse_mass();
+
+  std::vector<Joint> joints_;
+  std::vector<int> caster_wheel_joint_;
+  std::vector<double> link_mass_;
+  std::vector<Eigen::Matrix3d> part_R_BL_;
+  std::vector<Eigen::Vector3d> part_com_m_;
+  std::unique_ptr<btMultiBody> body_;
+  Eigen::Matrix3d R_BK_;  ///< principal axes K of the base, Bullet's base frame
+  Eigen::Vector3d com_B_;
+  double gravity_mps2_;
+  bool constant_mass_ = true;
+  bool have_inverse_mass_ = false;
+  DofMatrix inverse_mass_;
+
+  Eigen::Quaterniond q_WB_ = Eigen::Quaterniond::Identity();
+  Eigen::Matrix3d R_WB_ = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d p_WB_ = Eigen::Vector3d::Zero();
+
+  btAlignedObjectArray<btScalar> scratch_r_;
+  btAlignedObjectArray<btVector3> scratch_v_;
+  btAlignedObjectArray<btMatrix3x3> scratch_m_;
+};
+
+}  // namespace umbsim

@@ -1,0 +1,171 @@
+#include "sim/urdf_bodies.h"
+
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "sim/inertia.h"
+
+namespace umbsim {
+namespace {
+
+// A sensor of this share of the robot's mass may be given without an inertia of its own.
+constexpr double kPointMassShare = 0.05;
+
+Eigen::Isometry3d to_eigen(const urdf::Pose& pose) {
+  const urdf::Rotation& q = pose.rotation;
+  Eigen::Isometry3d x = Eigen::Isometry3d::Identity();
+  x.linear() = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
+  x.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
+  return x;
+}
+
+double mass_of_links(const urdf::ModelInterface& model) {
+  double sum = 0;
+  for (const auto& [name, link] : model.links_) sum += link->inertial ? link->inertial->mass : 0;
+  return sum;
+}
+
+class BodyReader {
+ public:
+  explicit BodyReader(const UrdfSource& source) : source_(source), total_kg_(mass_of_links(source.model())) {}
+
+  std::vector<Body> read() {
+    const urdf::Link& root = *source_.model().getRoot();
+    bodies_.push_back({});
+    bodies_[0].link = root.name;
+    add_link(root, 0, Eigen::Isometry3d::Identity());
+    for (const Body& body : bodies_) check(body);
+    return std::move(bodies_);
+  }
+
+ private:
+  // Adds a link, all that is fixed to it, and new bodies behind its moving joints. x_rl: link in root.
+  void add_link(const urdf::Link& link, int body, const Eigen::Isometry3d& x_rl) {
+    bodies_[body].inertial = lumped(bodies_[body].inertial, read_inertial(link, x_rl));
+    for (const auto& collision : link.collision_array) {
+      if (!collision || !collision->geometry) continue;
+      bodies_[body].shapes.push_back(read_shape(link.name, *collision->geometry, x_rl * to_eigen(collision->origin)));
+    }
+    for (const auto& joint : link.child_joints) {
+      const Eigen::Isometry3d x_rj = x_rl * to_eigen(joint->parent_to_joint_origin_transform);
+      const int owner = joint->type == urdf::Joint::FIXED ? body : add_body(*joint, body, x_rj);
+      add_link(*source_.model().getLink(joint->child_link_name), owner, x_rj);
+    }
+  }
+
+  int add_body(const urdf::Joint& joint, int parent, const Eigen::Isometry3d& x_rj) {
+    Body body;
+    body.link = joint.child_link_name;
+    body.joint = joint.name;
+    body.continuous = joint.type == urdf::Joint::CONTINUOUS;
+    body.parent = parent;
+    body.origin_m = x_rj.translation();
+    const Eigen::Vector3d axis = x_rj.linear() * Eigen::Vector3d(joint.axis.x, joint.axis.y, joint.axis.z);
+    if (body.continuous && !(axis.norm() > 0)) source_.fail_at_joint(joint.name, "its axis has no direction (0 0 0)");
+    if (axis.norm() > 0) body.axis = axis.normalized();
+    if (joint.limits) body.effort_limit_nm = joint.limits->effort;
+    bodies_.push_back(body);
+    return int(bodies_.size()) - 1;
+  }
+
+  Inertial read_inertial(const urdf::Link& link, const Eigen::Isometry3d& x_rl) const {
+    if (!link.inertial || link.inertial->mass == 0) return {};
+    const urdf::Inertial& in = *link.inertial;
+    if (!(in.mass > 0) || !std::isfinite(in.mass)) {
+      source_.fail_at_link(link.name, fmt::format("mass is {} kg; it must be positive", in.mass));
+    }
+    Inertial body{in.mass, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
+    body.inertia_kgm2 << in.ixx, in.ixy, in.ixz, in.ixy, in.iyy, in.iyz, in.ixz, in.iyz, in.izz;
+    const bool fixed = link.parent_joint && link.parent_joint->type == urdf::Joint::FIXED;
+    const bool point = body.inertia_kgm2.isZero(0) && fixed && in.mass <= kPointMassShare * total_kg_;
+    const std::string fault = point ? "" : inertia_fault(body.inertia_kgm2);
+    if (!fault.empty()) source_.fail_at_link(link.name, fault);
+    return transformed(body, x_rl * to_eigen(in.origin));
+  }
+
+  Shape read_shape(const std::string& link, const urdf::Geometry& geometry, const Eigen::Isometry3d& x_rs) const {
+    Shape shape;
+    shape.link = link;
+    shape.pose = x_rs;
+    double smallest = 1;
+    if (const auto* sphere = dynamic_cast<const urdf::Sphere*>(&geometry)) {
+      shape.kind = Shape::Kind::sphere;
+      smallest = shape.radius_m = sphere->radius;
+    } else if (const auto* cylinder = dynamic_cast<const urdf::Cylinder*>(&geometry)) {
+      shape.kind = Shape::Kind::cylinder;
+      shape.radius_m = cylinder->radius;
+      shape.length_m = cylinder->length;
+      smallest = std::min(cylinder->radius, cylinder->length);
+    } else if (const auto* box = dynamic_cast<const urdf::Box*>(&geometry)) {
+      shape.kind = Shape::Kind::box;
+      shape.size_m = {box->dim.x, box->dim.y, box->dim.z};
+      smallest = shape.size_m.minCoeff();
+    }
+    if (!(smallest > 0)) {
+      source_.fail_at_link(link, fmt::format("a size of its collision shape is {} m; it must be positive", smallest));
+    }
+    return shape;
+  }
+
+  void check(const Body& body) const {
+    if (body.joint.empty()) return;
+    if (body.inertial.mass_kg == 0) {
+      source_.fail_at_link(body.link,
+                           "massless behind a moving joint: give it an <inertial> with mass and inertia, or make the "
+                           "joint fixed");
+    }
+    const std::string fault = inertia_fault(body.inertial.inertia_kgm2);
+    if (!fault.empty()) source_.fail_at_link(body.link, fault);
+  }
+
+  const UrdfSource& source_;
+  double total_kg_;
+  std::vector<Body> bodies_;
+};
+
+}  // namespace
+
+Eigen::Vector3d Shape::half_extent_m() const {
+  const Eigen::Matrix3d r = pose.linear();
+  switch (kind) {
+    case Kind::sphere:
+      return Eigen::Vector3d::Constant(radius_m);
+    case Kind::box:
+      return r.cwiseAbs() * size_m / 2;
+    case Kind::cylinder: {
+      const Eigen::Array3d along = r.col(2).array().abs();
+      return radius_m * (1 - along.square()).max(0).sqrt() + length_m / 2 * along;
+    }
+    case Kind::mesh:
+      break;
+  }
+  return Eigen::Vector3d::Zero();
+}
+
+std::vector<Body> read_bodies(const UrdfSource& source) { return BodyReader(source).read(); }
+
+std::vector<Body> in_frame(std::vector<Body> bodies, const Eigen::Isometry3d& x_ar) {
+  for (Body& body : bodies) {
+    body.origin_m = x_ar * body.origin_m;
+    body.axis = x_ar.linear() * body.axis;
+    body.inertial = transformed(body.inertial, x_ar);
+    for (Shape& shape : body.shapes) shape.pose = x_ar * shape.pose;
+  }
+  return bodies;
+}
+
+std::vector<int> mass_owners(const std::vector<Body>& bodies, const std::vector<bool>& separate) {
+  std::vector<int> owners(bodies.size(), 0);
+  for (std::size_t i = 1; i < bodies.size(); ++i) owners[i] = separate[i] ? int(i) : owners[bodies[i].parent];
+  return owners;
+}
+
+std::vector<Inertial> lump_by_owner(const std::vector<Body>& bodies, const std::vector<int>& owners) {
+  std::vector<Inertial> sums(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) sums[owners[i]] = lumped(sums[owners[i]], bodies[i].inertial);
+  return sums;
+}
+
+}  // namespace umbsim

@@ -1,0 +1,121 @@
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "sim/inertia.h"
+#include "sim/robot_model.h"
+#include "sim/urdf_bodies.h"
+#include "sim/urdf_drive.h"
+#include "sim/urdf_source.h"
+#include "sim/urdf_supports.h"
+
+namespace umbsim {
+namespace {
+
+// A wheel's mass sits on its axle. Up to this share of the radius the file's offset is ignored, beyond it is refused.
+constexpr double kUnbalanced_radii = 0.1;
+
+struct RollingMass {
+  double mass_kg = 0;
+  double spin_kgm2 = 0;
+  double transverse_kgm2 = 0;
+};
+
+RollingMass rolling_mass(const UrdfSource& source, const Body& body, const Inertial& inertial, double radius_m) {
+  const Eigen::Vector3d offset = inertial.com_m - body.origin_m;
+  const double radial = (offset - offset.dot(body.axis) * body.axis).norm();
+  if (radial > kUnbalanced_radii * radius_m) {
+    source.fail_at_link(body.link, fmt::format("centre of mass is {:.3g} m off the joint axis (at most {:g} of the "
+                                               "radius {:g} m)", radial, kUnbalanced_radii, radius_m));
+  }
+  const double spin = body.axis.dot(inertial.inertia_kgm2 * body.axis);
+  return {inertial.mass_kg, spin, (inertial.inertia_kgm2.trace() - spin) / 2};
+}
+
+bool has_shape(const urdf::Link& link) { return !link.collision_array.empty() || !link.visual_array.empty(); }
+bool has_mass(const urdf::Link& link) { return link.inertial && link.inertial->mass > 0; }
+bool is_fixed(const urdf::JointSharedPtr& joint) { return joint && joint->type == urdf::Joint::FIXED; }
+
+// A hull without an inertial would leave a base of sensors only. Fine: a mere frame, a bracket on a link with mass, or
+// the idiom of a separate link that holds nothing but the inertial.
+void require_hull_mass(const UrdfSource& source, const Body& wheel) {
+  const urdf::Link& hull =
+      *source.model().getLink(source.model().getJoint(wheel.joint)->parent_link_name);
+  if (has_mass(hull) || !has_shape(hull)) return;
+  if (is_fixed(hull.parent_joint) && has_mass(*hull.getParent())) return;
+  for (const auto& child : hull.child_links) {
+    if (is_fixed(child->parent_joint) && has_mass(*child) && !has_shape(*child)) return;
+  }
+  source.fail_at_link(hull.name, fmt::format("massless: it has a shape and carries drive joint '{}', but no <inertial>",
+                                             wheel.joint));
+}
+
+void check_base(const UrdfSource& source, const Body& root, const Inertial& base) {
+  if (base.mass_kg == 0) source.fail_at_link(root.link, "massless: no link fixed to it has an <inertial>");
+  const std::string fault = inertia_fault(base.inertia_kgm2);
+  if (!fault.empty()) source.fail_at_link(root.link, "with all that is fixed to it: " + fault);
+}
+
+Wheel make_wheel(const UrdfSource& source, const Body& body, const Inertial& inertial, const RollingWheel& rolling) {
+  const RollingMass mass = rolling_mass(source, body, inertial, rolling.radius_m);
+  Wheel wheel;
+  wheel.joint = body.joint;
+  wheel.radius_m = rolling.radius_m;
+  wheel.width_m = rolling.width_m;
+  wheel.mass_kg = mass.mass_kg;
+  wheel.spin_inertia_kgm2 = mass.spin_kgm2;
+  wheel.transverse_inertia_kgm2 = mass.transverse_kgm2;
+  wheel.effort_limit_nm = body.effort_limit_nm;
+  return wheel;
+}
+
+Caster make_caster(const UrdfSource& source, const std::vector<Body>& bodies, const std::vector<Inertial>& masses,
+                   const Support& support) {
+  Caster caster = support.caster;
+  if (support.fork >= 0) caster.fork = masses[support.fork];
+  if (support.wheel >= 0) {
+    const RollingMass mass = rolling_mass(source, bodies[support.wheel], masses[support.wheel], caster.radius_m);
+    caster.wheel_mass_kg = mass.mass_kg;
+    caster.wheel_spin_inertia_kgm2 = mass.spin_kgm2;
+    caster.wheel_transverse_inertia_kgm2 = mass.transverse_kgm2;
+  }
+  return caster;
+}
+
+}  // namespace
+
+RobotModel load_robot(const std::string& urdf_file, const DriveJoints& joints) {
+  const UrdfSource source(urdf_file);
+  const std::vector<Body> in_root = read_bodies(source);
+  const Drive drive = find_drive(source, in_root, joints);
+  const std::vector<Body> bodies = in_frame(in_root, drive.root_in_base());
+  const std::vector<int> wheel_bodies{drive.wheels[0].body, drive.wheels[1].body};
+  const double radius_m = (drive.wheels[0].radius_m + drive.wheels[1].radius_m) / 2;
+  const std::vector<Support> supports = find_supports(source, bodies, wheel_bodies, radius_m);
+
+  std::vector<bool> separate(bodies.size(), false);
+  for (const int wheel : wheel_bodies) separate[wheel] = true;
+  for (const Support& support : supports) {
+    if (support.fork >= 0) separate[support.fork] = true;
+    if (support.wheel >= 0) separate[support.wheel] = true;
+  }
+  const std::vector<Inertial> masses = lump_by_owner(bodies, mass_owners(bodies, separate));
+
+  RobotModel model;
+  model.name = source.model().getName();
+  model.urdf = source.file_name();
+  model.base = masses[0];
+  check_base(source, bodies[0], model.base);
+  const double half_m = (drive.wheels[0].centre_m - drive.wheels[1].centre_m).norm() / 2;
+  for (int side = 0; side < 2; ++side) {
+    const int body = wheel_bodies[side];
+    require_hull_mass(source, bodies[body]);
+    model.wheels[side] = make_wheel(source, bodies[body], masses[body], drive.wheels[side]);
+    model.wheels[side].centre_m.y() = side == 0 ? half_m : -half_m;
+  }
+  for (const Support& support : supports) model.casters.push_back(make_caster(source, bodies, masses, support));
+  return model;
+}
+
+}  // namespace umbsim

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/robot_model.h"
+#include "sim/urdf_bodies.h"
+#include "sim/urdf_source.h"
+
+namespace umbsim {
+
+/// A caster and the bodies that stay bodies of their own; -1 where its mass belongs to the base or fork.
+struct Support {
+  Caster caster;  ///< geometry; masses are filled in by load_robot
+  int fork = -1;
+  int wheel = -1;
+};
+
+/// What carries the robot besides the drive wheels, whose bodies are given. `bodies` are in the base frame, the floor
+/// is z = -wheel_radius_m; within 10 % of the wheel radius a shape stands on it. Geometry is kept as the file gives it.
+/// - Fixed sphere: a ball. Fixed box or cylinder no longer than a drive wheel's diameter: a ball under its middle that
+///   touches at the shape's lowest height.
+/// - Behind a continuous upright joint: a wheel on a horizontal continuous joint, or a cylinder or sphere of the fork
+///   itself, swivels. A sphere centred on the swivel axis is a ball.
+/// Throws InputError: another shape on the floor behind a swivel, or no third support off the axle ("falls over").
+std::vector<Support> find_supports(const UrdfSource& source, const std::vector<Body>& bodies,
+                                   const std::vector<int>& drive_bodies, double wheel_radius_m);
+
+}  // namespace umbsim

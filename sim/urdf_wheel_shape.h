@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "sim/urdf_bodies.h"
+#include "sim/urdf_source.h"
+
+namespace umbsim {
+
+/// A joint axis this close to the horizontal (or the vertical) counts as such.
+inline constexpr double kLevelTolerance_rad = 0.1;
+/// A shape whose lowest point is this close to the floor plane, in wheel radii, stands on it.
+inline constexpr double kFloorTolerance_radii = 0.1;
+
+bool is_horizontal(const Eigen::Vector3d& axis);
+bool is_vertical(const Eigen::Vector3d& axis);
+
+/// A wheel that rolls about its body's joint, in the frame of the body list.
+struct RollingWheel {
+  int body = -1;
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< on the joint axis
+  double radius_m = 0;
+  double width_m = 0;  ///< 0 for a sphere
+  double lowest_m() const { return centre_m.z() - radius_m; }
+};
+
+/// The collision cylinder or sphere of `bodies[body]` as a wheel. If it has none that can roll about the joint,
+/// `fault` says why and what to do.
+struct WheelShape {
+  RollingWheel wheel;
+  std::string fault;
+};
+WheelShape wheel_shape(const UrdfSource& source, const std::vector<Body>& bodies, int body);
+
+}  // namespace umbsim

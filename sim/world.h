@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include <Eigen/Core>
+
+#include "core/pose2.h"
+#include "sim/drivetrain.h"
+#include "sim/floor.h"
+#include "sim/robot_model.h"
+
+namespace umbsim {
+
+/// How much wheels and casters give under load. The spring sinks by `static_sink_m` under the load that the support
+/// carries at rest, where its radius is the nominal one; the rolling radius does not follow (a tread that keeps its
+/// length). Without it every bump would be a blow between rigid bodies, which lifts the other wheels.
+struct Softness {
+  double static_sink_m = 0.0001;
+  double damping_ratio = 1;  ///< of the load on its spring
+};
+
+struct PhysicsOptions {
+  double step_s = 0.010;       ///< longest time step
+  double fine_step_s = 0.001;  ///< longest time step while a wheel is on or near a cable
+  double gravity_mps2 = 9.81;
+  Softness softness;
+};
+
+/// What the world counted, to be reported and explained.
+struct PhysicsCost {
+  std::int64_t steps = 0;
+  std::int64_t newton_steps = 0;      ///< steps with sliding, lift-off or a saturated motor
+  std::int64_t solver_fallbacks = 0;  ///< steps in which the direct solver gave up
+  double simulated_s = 0;
+};
+
+/// Forces on each support at the end of the last step, in newtons.
+struct SupportLoads {
+  std::array<double, 2> wheel_n{};
+  std::array<double, 8> caster_n{};
+};
+
+/// A robot on a floor: Bullet's articulated-body dynamics (btMultiBody), contacts of ideal round shapes, and a
+/// direct contact solver (sim/contact_solver.h). Knows nothing of effects: it simulates the description it is given.
+class World {
+ public:
+  World(const RobotModel& robot, const Drivetrain& drivetrain, const Floor& floor, const PhysicsOptions& options);
+  ~World();
+  World(World&&) noexcept;
+
+  /// Sets the robot at rest on the floor with the axle's middle at X_WB, and lets it settle with the motors
+  /// braked. Throws RunError if a wheel or caster then carries no load.
+  void place(const Pose2& X_WB);
+
+  /// Wheel speeds that the motors shall have reached at the end of the next `advance`, forward positive.
+  void command(double left_radps, double right_radps);
+
+  /// Simulates `duration_s`. Throws RunError if the state becomes non-finite.
+  void advance(double duration_s);
+
+  void lay_cable(const Cable& cable);
+
+  /// Pose of the axle's middle, projected on the floor plane; heading unwrapped.
+  Pose2 pose() const;
+  /// 0 left, 1 right; radians since `place`, relative to the base, forward positive.
+  double wheel_angle(int wheel) const;
+  double wheel_speed(int wheel) const;
+  Eigen::Vector3d wheel_centre(int wheel) const;
+  /// Roll and pitch, for tests and traces.
+  Eigen::Vector3d up() const;
+  const SupportLoads& loads() const;
+  const PhysicsCost& cost() const;
+  /// Kinetic plus potential energy, joules. For tests.
+  double energy() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace umbsim
