@@ -1,6 +1,6 @@
 # embed_text(VARIABLE files...) writes ${CMAKE_CURRENT_BINARY_DIR}/VARIABLE.cpp, which defines
-# `extern const std::string_view umbsim::web::VARIABLE`: the files one after the other. Made again when one of them changes.
-# Characters, not string literals: these have a length limit in the standard.
+# `extern const std::string_view umbsim::web::VARIABLE`: the files one after the other. Made again when one of them
+# changes. Characters, not string literals: these have a length limit in the standard.
 if(NOT CMAKE_SCRIPT_MODE_FILE)
   set(EMBED_TEXT_SCRIPT ${CMAKE_CURRENT_LIST_FILE})
   function(embed_text variable)

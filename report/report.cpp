@@ -34,8 +34,8 @@ std::string replace_all(std::string_view text, const std::array<Replacement, N>&
 /// U+2028 and U+2029 end a line in older JavaScript.
 std::string script_json(const nlohmann::json& data) {
   const std::string text = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  return replace_all(text, std::array<Replacement, 3>{
-                               {{"<", "\\u003c"}, {"\xE2\x80\xA8", "\\u2028"}, {"\xE2\x80\xA9", "\\u2029"}}});
+  return replace_all(
+      text, std::array<Replacement, 3>{{{"<", "\\u003c"}, {"\xE2\x80\xA8", "\\u2028"}, {"\xE2\x80\xA9", "\\u2029"}}});
 }
 
 std::string html_text(std::string_view text) {
@@ -53,10 +53,10 @@ std::string render_report(const nlohmann::json& data) {
   if (!data.is_object()) throw std::invalid_argument("render_report: data must be a JSON object");
   const std::string title = html_text(title_of(data));
   const std::string json = script_json(data);
-  return replace_all(web::page_html, std::array<Replacement, 4>{{{"@TITLE@", title},
-                                                                 {"@STYLE@", web::report_css},
-                                                                 {"@DATA@", json},
-                                                                 {"@SCRIPT@", web::report_js}}});
+  return replace_all(
+      web::page_html,
+      std::array<Replacement, 4>{
+          {{"@TITLE@", title}, {"@STYLE@", web::report_css}, {"@DATA@", json}, {"@SCRIPT@", web::report_js}}});
 }
 
 }  // namespace umbsim

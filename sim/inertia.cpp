@@ -1,7 +1,8 @@
 #include "sim/inertia.h"
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
 
 namespace umbsim {
 namespace {

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <string>
-
 #include <Eigen/Geometry>
+#include <string>
 
 #include "sim/robot_model.h"
 

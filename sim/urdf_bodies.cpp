@@ -1,9 +1,11 @@
 #include "sim/urdf_bodies.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <memory>
-
-#include <fmt/format.h>
+#include <set>
 
 #include "sim/inertia.h"
 
@@ -36,6 +38,10 @@ class BodyReader {
     bodies_.push_back({});
     bodies_[0].link = root.name;
     add_link(root, 0, Eigen::Isometry3d::Identity());
+    for (const auto& [name, link] : source_.model().links_) {
+      if (!seen_.contains(name))
+        source_.fail_at_link(name, "not connected to the root " + source_.link_text(root.name));
+    }
     for (const Body& body : bodies_) check(body);
     return std::move(bodies_);
   }
@@ -43,6 +49,7 @@ class BodyReader {
  private:
   // Adds a link, all that is fixed to it, and new bodies behind its moving joints. x_rl: link in root.
   void add_link(const urdf::Link& link, int body, const Eigen::Isometry3d& x_rl) {
+    if (!seen_.insert(link.name).second) source_.fail_at_link(link.name, "child of more than one joint");
     bodies_[body].inertial = lumped(bodies_[body].inertial, read_inertial(link, x_rl));
     for (const auto& collision : link.collision_array) {
       if (!collision || !collision->geometry) continue;
@@ -80,6 +87,10 @@ class BodyReader {
     body.inertia_kgm2 << in.ixx, in.ixy, in.ixz, in.ixy, in.iyy, in.iyz, in.ixz, in.iyz, in.izz;
     const bool fixed = link.parent_joint && link.parent_joint->type == urdf::Joint::FIXED;
     const bool point = body.inertia_kgm2.isZero(0) && fixed && in.mass <= kPointMassShare * total_kg_;
+    if (body.inertia_kgm2.isZero(0) && !point) {
+      source_.fail_at_link(link.name,
+                           fmt::format("a mass of {:g} kg without inertia: <inertia> is missing or zero", in.mass));
+    }
     const std::string fault = point ? "" : inertia_fault(body.inertia_kgm2);
     if (!fault.empty()) source_.fail_at_link(link.name, fault);
     return transformed(body, x_rl * to_eigen(in.origin));
@@ -123,6 +134,7 @@ class BodyReader {
   const UrdfSource& source_;
   double total_kg_;
   std::vector<Body> bodies_;
+  std::set<std::string> seen_;
 };
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "sim/urdf_drive.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace umbsim {
 namespace {
@@ -95,10 +95,10 @@ std::vector<Pair> collinear_pairs(const std::vector<Body>& bodies, const std::ve
                                      "behind a continuous upright swivel joint",
                                      joint_list(bodies, {drive.first, drive.second})));
   }
-  source.fail(fmt::format("{} driven wheels (joints {}): skid steering is not supported; a differential drive has two "
-                          "wheels on one axle and casters",
-                          on_floor.size() == 4 ? "four" : std::to_string(on_floor.size()),
-                          joint_list(bodies, on_floor)));
+  source.fail(
+      fmt::format("{} driven wheels (joints {}): skid steering is not supported; a differential drive has two "
+                  "wheels on one axle and casters",
+                  on_floor.size() == 4 ? "four" : std::to_string(on_floor.size()), joint_list(bodies, on_floor)));
 }
 
 [[noreturn]] void refuse_too_few(const UrdfSource& source, const std::vector<Body>& bodies, const Candidates& found) {
@@ -118,11 +118,11 @@ Pair automatic_pair(const UrdfSource& source, const std::vector<Body>& bodies, c
   if (!pairs.empty()) return pairs[0];
   const RollingWheel& a = found.on_floor[0];
   const RollingWheel& b = found.on_floor[1];
-  source.fail_at_joint(bodies[b.body].joint,
-                       fmt::format("not collinear with {}: an axis is {:.3g} rad off the line between the wheel centres "
-                                   "(at most {:g})",
-                                   source.joint_text(bodies[a.body].joint), misalignment_rad(bodies, a, b),
-                                   kCollinear_rad));
+  source.fail_at_joint(
+      bodies[b.body].joint,
+      fmt::format("not collinear with {}: an axis is {:.3g} rad off the line between the wheel centres "
+                  "(at most {:g})",
+                  source.joint_text(bodies[a.body].joint), misalignment_rad(bodies, a, b), kCollinear_rad));
 }
 
 RollingWheel named_wheel(const UrdfSource& source, const std::vector<Body>& bodies, const std::string& joint) {
@@ -166,9 +166,10 @@ Drive with_sides(const UrdfSource& source, const std::vector<Body>& bodies, Pair
   const std::string root = source.link_text(bodies[0].link);
   const bool across = std::abs(line.x()) > std::abs(line.y());
   if (across && !named) {
-    source.fail(fmt::format("the axle of joints {} lies along x of the root {}, which should point forward: name the "
-                            "left and right drive joints",
-                            joint_list(bodies, {pair.first, pair.second}), root));
+    source.fail(
+        fmt::format("the axle of joints {} lies along x of the root {}, which should point forward: name the "
+                    "left and right drive joints",
+                    joint_list(bodies, {pair.first, pair.second}), root));
   }
   if (!across && line.y() < 0) {
     if (named) {

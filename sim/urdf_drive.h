@@ -1,9 +1,8 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <vector>
-
-#include <Eigen/Geometry>
 
 #include "sim/robot_model.h"
 #include "sim/urdf_bodies.h"

@@ -1,7 +1,7 @@
+#include <fmt/format.h>
+
 #include <string>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "sim/inertia.h"
 #include "sim/robot_model.h"
@@ -27,7 +27,8 @@ RollingMass rolling_mass(const UrdfSource& source, const Body& body, const Inert
   const double radial = (offset - offset.dot(body.axis) * body.axis).norm();
   if (radial > kUnbalanced_radii * radius_m) {
     source.fail_at_link(body.link, fmt::format("centre of mass is {:.3g} m off the joint axis (at most {:g} of the "
-                                               "radius {:g} m)", radial, kUnbalanced_radii, radius_m));
+                                               "radius {:g} m)",
+                                               radial, kUnbalanced_radii, radius_m));
   }
   const double spin = body.axis.dot(inertial.inertia_kgm2 * body.axis);
   return {inertial.mass_kg, spin, (inertial.inertia_kgm2.trace() - spin) / 2};
@@ -40,15 +41,14 @@ bool is_fixed(const urdf::JointSharedPtr& joint) { return joint && joint->type =
 // A hull without an inertial would leave a base of sensors only. Fine: a mere frame, a bracket on a link with mass, or
 // the idiom of a separate link that holds nothing but the inertial.
 void require_hull_mass(const UrdfSource& source, const Body& wheel) {
-  const urdf::Link& hull =
-      *source.model().getLink(source.model().getJoint(wheel.joint)->parent_link_name);
+  const urdf::Link& hull = *source.model().getLink(source.model().getJoint(wheel.joint)->parent_link_name);
   if (has_mass(hull) || !has_shape(hull)) return;
   if (is_fixed(hull.parent_joint) && has_mass(*hull.getParent())) return;
   for (const auto& child : hull.child_links) {
     if (is_fixed(child->parent_joint) && has_mass(*child) && !has_shape(*child)) return;
   }
-  source.fail_at_link(hull.name, fmt::format("massless: it has a shape and carries drive joint '{}', but no <inertial>",
-                                             wheel.joint));
+  source.fail_at_link(
+      hull.name, fmt::format("massless: it has a shape and carries drive joint '{}', but no <inertial>", wheel.joint));
 }
 
 void check_base(const UrdfSource& source, const Body& root, const Inertial& base) {

@@ -1,5 +1,10 @@
 #include "sim/urdf_source.h"
 
+#include <console_bridge/console.h>
+#include <fmt/format.h>
+#include <tinyxml2.h>
+#include <urdf_parser/urdf_parser.h>
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -7,11 +12,6 @@
 #include <iterator>
 #include <mutex>
 #include <string_view>
-
-#include <console_bridge/console.h>
-#include <fmt/format.h>
-#include <tinyxml2.h>
-#include <urdf_parser/urdf_parser.h>
 
 #include "core/error.h"
 

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <urdf_model/model.h>
+
 #include <map>
 #include <memory>
 #include <string>
-
-#include <urdf_model/model.h>
 
 namespace umbsim {
 

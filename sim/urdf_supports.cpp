@@ -1,10 +1,10 @@
 #include "sim/urdf_supports.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
-
-#include <fmt/format.h>
 
 #include "sim/urdf_wheel_shape.h"
 
@@ -31,7 +31,9 @@ class SupportFinder {
       if (top_[i] == 0) add_fixed(bodies_[i]);
       if (top_[i] == i && i > 0 && !std::count(drive.begin(), drive.end(), i)) add_swivel(i);
     }
-    const auto off_axle = [&](const Support& s) { return std::abs(s.caster.centre_m.x()) > kOffAxle_radii * radius_m_; };
+    const auto off_axle = [&](const Support& s) {
+      return std::abs(s.caster.centre_m.x()) > kOffAxle_radii * radius_m_;
+    };
     if (std::none_of(found_.begin(), found_.end(), off_axle)) refuse_to_fall_over();
     return found_;
   }
@@ -103,11 +105,12 @@ class SupportFinder {
       caster.radius_m = shape.radius_m;
       return support;
     }
-    const bool rolls = index != top && bodies_[index].parent == top && bodies_[index].continuous &&
-                       is_horizontal(bodies_[index].axis);
+    const bool rolls =
+        index != top && bodies_[index].parent == top && bodies_[index].continuous && is_horizontal(bodies_[index].axis);
     if (!rolls) {
-      source_.fail_at_link(shape.link, "stands on the floor behind a swivel, but is neither a ball on the swivel axis "
-                                       "nor a wheel on a continuous horizontal joint of the fork");
+      source_.fail_at_link(shape.link,
+                           "stands on the floor behind a swivel, but is neither a ball on the swivel axis "
+                           "nor a wheel on a continuous horizontal joint of the fork");
     }
     const WheelShape found = wheel_shape(source_, bodies_, index);
     if (!found.fault.empty()) source_.fail_at_joint(bodies_[index].joint, "cannot be a caster wheel: " + found.fault);
@@ -124,8 +127,9 @@ class SupportFinder {
                           source_.link_text(missed_->link), 1e3 * std::abs(height_m(*missed_)),
                           height_m(*missed_) > 0 ? "above" : "below");
     } else {
-      what += "Give a fixed link (joint type fixed) a <sphere> as <collision> that reaches the floor, or add a "
-              "swivelling caster";
+      what +=
+          "Give a fixed link (joint type fixed) a <sphere> as <collision> that reaches the floor, or add a "
+          "swivelling caster";
     }
     source_.fail_at_link(bodies_[0].link, what + fmt::format(" (at most {:.1f} mm off counts as touching)",
                                                              1e3 * kFloorTolerance_radii * radius_m_));

@@ -1,9 +1,9 @@
 #include "sim/urdf_wheel_shape.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include <fmt/format.h>
 
 namespace umbsim {
 namespace {
@@ -58,15 +58,18 @@ WheelShape wheel_shape(const UrdfSource& source, const std::vector<Body>& bodies
   if (shape.kind == Shape::Kind::cylinder) {
     const double tilt = tilt_rad(shape.pose.linear().col(2), body.axis);
     if (tilt > kAlong_rad) {
-      return {{}, fmt::format("its collision cylinder lies {:.3g} rad across the joint axis (at most {:g}); check the "
-                              "rpy of the collision origin", tilt, kAlong_rad)};
+      return {{},
+              fmt::format("its collision cylinder lies {:.3g} rad across the joint axis (at most {:g}); check the "
+                          "rpy of the collision origin",
+                          tilt, kAlong_rad)};
     }
   }
   const Eigen::Vector3d to_centre = shape.centre_m() - body.origin_m;
   const Eigen::Vector3d off_axis = to_centre - to_centre.dot(body.axis) * body.axis;
   if (off_axis.norm() > kEccentric_radii * shape.radius_m) {
-    return {{}, fmt::format("its collision shape is {:.3g} m off the joint axis (at most {:g} of the radius)",
-                            off_axis.norm(), kEccentric_radii)};
+    return {{},
+            fmt::format("its collision shape is {:.3g} m off the joint axis (at most {:g} of the radius)",
+                        off_axis.norm(), kEccentric_radii)};
   }
   const double width = shape.kind == Shape::Kind::cylinder ? shape.length_m : 0;
   return {{index, shape.centre_m() - off_axis, shape.radius_m, width}, {}};

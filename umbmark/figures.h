@@ -89,7 +89,11 @@ Umbmark umbmark(const Recording& recording, const OdometryParameters& odometry);
 std::optional<ExtendedUmbmark> extended_umbmark(const Recording& recording, const OdometryParameters& odometry,
                                                 const Umbmark& plain);
 
-/// The estimate from alpha and beta; exact in the radius of curvature.
+/// E_d and E_b from alpha and beta by Borenstein & Feng's formulas (small-angle where alpha and beta come from return
+/// positions).
 ErrorEstimate error_estimate(double alpha_rad, double beta_rad, double side_m, double wheelbase_m);
+
+/// The same from return headings: exact for robots that drive legs and in-place turns.
+ErrorEstimate heading_estimate(double alpha_rad, double beta_rad, double side_m, double wheelbase_m);
 
 }  // namespace umbsim

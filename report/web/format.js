@@ -7,7 +7,7 @@ const DEG = 180 / Math.PI;
 const isNumber = (v) => typeof v === "number" && Number.isFinite(v);
 
 const escapeHtml = (text) =>
-  String(text).replace(/[&<>"']/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;" })[c]);
+    String(text).replace(/[&<>"']/g, (c) => ({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;"})[c]);
 
 const minus = (text) => (/^-0(\.0*)?$/.test(text) ? text.slice(1) : text.replace("-", "\u2212"));
 
@@ -32,20 +32,29 @@ const deg = (v_rad, decimals = degDecimals([v_rad])) => fixed(isNumber(v_rad) ? 
 
 const mmUnit = (v_m) => `${mm(v_m)}\u00a0mm`;
 
-const degUnit = (v_rad) => `${deg(v_rad)}°`;
+const degUnit = (v_rad) => (isNumber(v_rad) ? `${deg(v_rad)}°` : "\u2013");
 
 function factor(v) {
   if (!isNumber(v)) return "\u2013";
   return v >= 100 ? Math.round(v).toLocaleString("en").replace(/,/g, "\u202f") : fixed(v, 1);
 }
 
-const signedSmall = (v) =>
-  !isNumber(v) ? "\u2013" : v === 0 ? "0" : Math.abs(v) < 1e-4 ? minus(v.toExponential(1)) : fixed(v, 5);
+const signedSmall = (v) => !isNumber(v) ? "\u2013" :
+    v === 0                             ? "0" :
+    Math.abs(v) < 1e-4                  ? minus(v.toExponential(1)) :
+                                          fixed(v, 5);
 
 const plural = (n, one) => `${n} ${one}${n === 1 ? "" : "s"}`;
 
-const DIRECTION_NAMES = { cw: "clockwise", ccw: "counter-clockwise" };
-const STAGE_NAMES = { before: "before calibration", after: "after calibration", bumped: "with bumps" };
+const DIRECTION_NAMES = {
+  cw: "clockwise",
+  ccw: "counter-clockwise"
+};
+const STAGE_NAMES = {
+  before: "before calibration",
+  after: "after calibration",
+  bumped: "with bumps"
+};
 const directionName = (d) => DIRECTION_NAMES[d] || d || "run";
 const stageName = (s) => STAGE_NAMES[s] || s || "";
 const colourClass = (d) => (d === "cw" || d === "ccw" ? d : "other");

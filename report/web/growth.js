@@ -43,11 +43,7 @@ function setupGrowth(data, section, selection) {
         <div class="panel"><p class="panel-title">Heading error</p><div class="plot" data-key="heading"></div></div>
       </div>
       <div class="legend-slot"></div>
-      <figcaption>Difference of true and calculated pose over the distance driven, for the runs chosen in figure 2 (thick) and the
-      other runs of the same kind (thin). Dotted lines mark the turns of the first run. A wrong wheelbase shows as a step of the heading error at
-      each turn, unequal wheels as a steady slope along each leg; a heading error, once made, lets the position error grow with
-      every metre. Odometry has nothing to bound it. A position error can also shrink: the sides of a square partly cancel each
-      other.</figcaption>
+      <figcaption>${CAPTIONS.growth}</figcaption>
     </figure>`;
   const cache = new Map(data.runs.filter(hasPath).map((run) => [run, errorSeries(run)]));
 
@@ -56,9 +52,9 @@ function setupGrowth(data, section, selection) {
     for (const element of section.querySelectorAll(".plot")) {
       element.innerHTML = growthSvg(data, cache, chosen, element.dataset.key, panelWidth(element));
     }
-    section.querySelector(".legend-slot").innerHTML = legendHtml(
-      chosen.map((r) => [lineIcon(`series ${colourClass(r.direction)}`), `${escapeHtml(r.id)}, ${escapeHtml(stageName(r.stage))}`])
-    );
+    const name = (run) => `${escapeHtml(run.id)}, ${escapeHtml(stageName(run.stage))}`;
+    const items = chosen.map((run) => [lineIcon(`series ${colourClass(run.direction)}`), name(run)]);
+    section.querySelector(".legend-slot").innerHTML = legendHtml(items);
   }
   return draw;
 }
@@ -71,17 +67,19 @@ function growthSvg(data, cache, chosen, key, width) {
   const plot = new Plot({
     width,
     height: Math.max(240, width * 0.62),
-    x: [0, Math.max(0.01, ...shown.map((run) => cache.get(run).at(-1).distance))],
+    x: [0, 1.02 * Math.max(0.01, ...shown.map((run) => cache.get(run).at(-1).distance))],
     y: paddedRange(values),
     xLabel: "distance driven (m)",
     yLabel: key === "position" ? "position error (mm)" : "heading error (°)",
   });
-  for (const distance of turnDistances(cache.get(chosen[0]))) plot.line([distance, plot.y[0]], [distance, plot.y[1]], "turn");
+  for (const distance of turnDistances(cache.get(chosen[0])))
+    plot.line([distance, plot.y[0]], [distance, plot.y[1]], "turn");
   const curve = (run, extra) =>
-    plot.path(cache.get(run).map((s) => [s.distance, s[key]]), `series ${colourClass(run.direction)} ${extra}`);
+      plot.path(cache.get(run).map((s) => [s.distance, s[key]]), `series ${colourClass(run.direction)} ${extra}`);
   shown.filter((run) => !chosen.includes(run)).forEach((run) => curve(run, "faint"));
   chosen.forEach((run) => curve(run, ""));
-  const ends = chosen.map((run) => `${run.id} ends at ${fixed(cache.get(run).at(-1)[key], 2)} ${key === "position" ? "mm" : "degrees"}`);
+  const ends = chosen.map(
+      (run) => `${run.id} ends at ${fixed(cache.get(run).at(-1)[key], 2)} ${key === "position" ? "mm" : "degrees"}`);
   return plot.svg(`${key === "position" ? "Position" : "Heading"} error over the distance driven: ${ends.join(", ")}`);
 }
 

@@ -5,39 +5,50 @@
 function loadData() {
   const data = JSON.parse(document.getElementById("report-data").textContent);
   data.summary = data.summary || {};
-  data.runs = Array.isArray(data.runs) ? data.runs : [];
+  data.runs = (Array.isArray(data.runs) ? data.runs : []).map((run) => ({stage: "before", ...run}));
   data.bumps = Array.isArray(data.bumps) ? data.bumps : [];
   return data;
 }
 
 function headline(data) {
-  const { umbmark = {}, recovery, one_way: oneWay } = data.summary;
+  const {umbmark = {}, recovery, one_way: oneWay} = data.summary;
   const counts = ["cw", "ccw"].map((d) => (umbmark[d] || {}).runs).filter(isNumber);
   if (isNumber(umbmark.e_max_syst_m)) {
-    const driven = counts.length === 2 ? `Over ${counts[0]} clockwise and ${counts[1]} counter-clockwise squares` : "Over squares driven both ways";
+    const driven = counts.length === 2 ? `Over ${counts[0]} clockwise and ${counts[1]} counter-clockwise squares` :
+                                         "Over squares driven both ways";
     const before = `${driven} the largest systematic return error, ${E_MAX}, is <b>${mmUnit(umbmark.e_max_syst_m)}</b>`;
     if (!recovery || !isNumber(recovery.e_max_after_m)) return `${before}.`;
-    return `${before}. Calibrated and driven again, it is <b>${mmUnit(recovery.e_max_after_m)}</b>: ` +
-      `<b>${factor(recovery.improvement)} times</b> smaller.`;
+    const after = `${before}. Calibrated and driven again, it is <b>${mmUnit(recovery.e_max_after_m)}</b>`;
+    if (!isNumber(recovery.improvement)) return `${after}.`;
+    return `${after}: <b>${factor(recovery.improvement)} times</b> smaller.`;
   }
-  if (oneWay) return `Driven ${escapeHtml(directionName(oneWay.direction))} only, the mean return error is <b>${mmUnit(oneWay.r_cg_m)}</b>.`;
-  return "";
+  if (!oneWay) return "";
+  const direction = escapeHtml(directionName(oneWay.direction));
+  return `Driven ${direction} only, the mean return error is <b>${mmUnit(oneWay.r_cg_m)}</b>.`;
 }
 
 function tilesHtml(data) {
-  const { umbmark = {}, recovery = {}, calibration = {}, injected = {}, extended = {} } = data.summary;
+  const {umbmark = {}, recovery = {}, calibration = {}, injected = {}, extended = {}} = data.summary;
   const best = calibration.heading || calibration.endpoint || umbmark.heading || {};
   const tiles = [];
   const tile = (name, value, unit, more = "") => {
-    if (value !== "\u2013") tiles.push(`<div class="tile"><dt>${name}</dt><dd><div class="value">${value}${unit ? ` <small>${unit}</small>` : ""}</div><div class="more">${more}</div></dd></div>`);
+    if (value === "\u2013") return;
+    const number = `<div class="value">${value}${unit ? `<small>${unit}</small>` : ""}</div>`;
+    tiles.push(`<div class="tile"><dt>${name}</dt><dd>${number}<div class="more">${more}</div></dd></div>`);
   };
   const truth = (v) => (isNumber(v) ? `injected ${fixed(v, 5)}` : "");
-  tile(`${E_MAX} before`, mm(umbmark.e_max_syst_m), "mm", worst(umbmark) ? `set by the ${worst(umbmark)} runs` : "");
-  tile(`${E_MAX} after`, mm(recovery.e_max_after_m), "mm", "driven again");
-  tile("Improvement", factor(recovery.improvement), "\u00d7", isNumber(recovery.passes) ? `in ${recovery.passes} pass${recovery.passes === 1 ? "" : "es"}` : "");
+  tile(
+      `${E_MAX} before`, mm(umbmark.e_max_syst_m), "\u00a0mm",
+      worst(umbmark) ? `set by the ${worst(umbmark)} runs` : "");
+  tile(`${E_MAX} after`, mm(recovery.e_max_after_m), "\u00a0mm", "driven again");
+  tile(
+      "Improvement", factor(recovery.improvement), "\u00a0\u00d7",
+      isNumber(recovery.passes) ? `in ${recovery.passes} pass${recovery.passes === 1 ? "" : "es"}` : "");
   tile("E<sub>d</sub>, wheel diameters", fixed(best.e_d, 5), "", truth(injected.e_d));
   tile("E<sub>b</sub>, wheelbase", fixed(best.e_b, 5), "", truth(injected.e_b));
-  tile("Extended figure", deg(extended.mean_abs_heading_error_rad), "°", isNumber(extended.per_bump_heading_error_rad) ? `${degUnit(extended.per_bump_heading_error_rad)} per bump` : "");
+  tile(
+      "Extended figure", degUnit(extended.mean_abs_heading_error_rad), "",
+      isNumber(extended.per_bump_heading_error_rad) ? `${degUnit(extended.per_bump_heading_error_rad)} per bump` : "");
   return tiles.length ? `<dl class="tiles">${tiles.join("")}</dl>` : "";
 }
 

@@ -2,7 +2,7 @@
 
 // Figure 2: driven paths, truth against odometry, with the error exaggerated.
 
-const hasPath = (run) => Array.isArray(run.truth) && Array.isArray(run.odometry) && run.truth.length > 1;
+const hasPath = (run) => [run.truth, run.odometry].every((path) => Array.isArray(path) && path.length > 1);
 
 const samplesOf = (run) => Math.min(run.truth.length, run.odometry.length);
 
@@ -58,17 +58,15 @@ function setupPaths(data, section, selection, onChange) {
                aria-describedby="exaggeration-help"><output></output></label></div>
       <div class="panels">${directions.map(panel).join("")}</div>
       ${legendHtml(pathLegend(data, directions))}
-      <figcaption id="exaggeration-help">The robot steers by its odometry, so the odometry path is the square it was asked for,
-      while the true path drifts off. Millimetres in a square of metres cannot be seen: the slider multiplies the difference
-      (shown = odometry + factor \u00d7 (truth \u2212 odometry)); at \u00d71 the picture is true to scale. The black line at
-      the end joins the two end points: the return error.</figcaption>
+      <figcaption id="exaggeration-help">${CAPTIONS.paths}</figcaption>
     </figure>`;
 
   function panel(direction) {
     const options = data.runs.filter((r) => hasPath(r) && r.direction === direction);
     const rows = options.map((r) => {
       const selected = r === selection[direction] ? "selected" : "";
-      return `<option value="${data.runs.indexOf(r)}" ${selected}>${escapeHtml(r.id)}, ${escapeHtml(stageName(r.stage))}</option>`;
+      const text = `${escapeHtml(r.id)}, ${escapeHtml(stageName(r.stage))}`;
+      return `<option value="${data.runs.indexOf(r)}" ${selected}>${text}</option>`;
     });
     return `<div class="panel ${directions.length === 1 ? "alone" : ""}" data-direction="${escapeHtml(direction)}">
       <label>Run <select aria-label="${escapeHtml(directionName(direction))} run">${rows.join("")}</select></label>
@@ -78,7 +76,8 @@ function setupPaths(data, section, selection, onChange) {
   function draw() {
     section.querySelector("output").textContent = `\u00d7${k}`;
     section.querySelector("input").setAttribute("aria-valuetext", `${k} times`);
-    const views = Object.values(selection).map((run) => boundsOf([...run.odometry, ...exaggerated(run, k), ...bumpsShown(data, run, k)]));
+    const views = Object.values(selection).map(
+        (run) => boundsOf([...run.odometry, ...exaggerated(run, k), ...bumpsShown(data, run, k)]));
     const span = Math.max(...views.map(boundsSpan), 0.01) * 1.1;
     for (const element of section.querySelectorAll(".panel")) {
       const run = selection[element.dataset.direction];
@@ -89,8 +88,10 @@ function setupPaths(data, section, selection, onChange) {
   }
 
   section.addEventListener("input", (event) => {
-    if (event.target.type === "range") k = Number(event.target.value);
-    else selection[event.target.closest(".panel").dataset.direction] = data.runs[Number(event.target.value)];
+    if (event.target.type === "range")
+      k = Number(event.target.value);
+    else
+      selection[event.target.closest(".panel").dataset.direction] = data.runs[Number(event.target.value)];
     draw();
     if (event.target.type !== "range") onChange();
   });
@@ -99,19 +100,31 @@ function setupPaths(data, section, selection, onChange) {
 
 function returnErrorText(run) {
   const name = directionName(run.direction);
-  const error = hasError(run)
-    ? `: return error ${mmUnit(Math.hypot(run.error.x_m, run.error.y_m))}, ${degUnit(run.error.theta_rad)}`
-    : "";
+  const error = hasError(run) ?
+      `: return error ${mmUnit(Math.hypot(run.error.x_m, run.error.y_m))}, ${degUnit(run.error.theta_rad)}` :
+      "";
   return `${escapeHtml(name[0].toUpperCase() + name.slice(1))}<span class="muted">${error}</span>`;
 }
 
-// A bump lies on the true floor; it is shown moved like the nearest true sample. [x, y, heading]
+// Index of the pose whose wheel is nearest to the point: half a wheelbase aside, neither ahead nor behind.
+function poseAt(path, x, y, wheelbase) {
+  let least = Infinity;
+  let index = 0;
+  path.forEach((pose, i) => {
+    const [dx, dy] = [x - pose[0], y - pose[1]];
+    const ahead = dx * Math.cos(pose[2]) + dy * Math.sin(pose[2]);
+    const aside = Math.abs(dy * Math.cos(pose[2]) - dx * Math.sin(pose[2]));
+    const cost = Math.hypot(ahead, aside - wheelbase / 2);
+    if (cost < least) [least, index] = [cost, i];
+  });
+  return index;
+}
+
+// A bump lies on the true floor; it is shown moved like the true path there. [x, y, heading]
 function bumpsShown(data, run, k) {
   return data.bumps.filter((b) => b.run === run.id && isNumber(b.x_m) && isNumber(b.y_m)).map((b) => {
-    let best = 0;
-    const distance = (i) => Math.hypot(run.truth[i][0] - b.x_m, run.truth[i][1] - b.y_m);
-    for (let i = 1; i < samplesOf(run); ++i) if (distance(i) < distance(best)) best = i;
-    const [t, o] = [run.truth[best], run.odometry[best]];
+    const i = poseAt(run.truth.slice(0, samplesOf(run)), b.x_m, b.y_m, data.wheelbase_m || 0);
+    const [t, o] = [run.truth[i], run.odometry[i]];
     return [b.x_m + (k - 1) * (t[0] - o[0]), b.y_m + (k - 1) * (t[1] - o[1]), t[2]];
   });
 }
@@ -138,9 +151,8 @@ function pathSvg(data, run, k, span, width) {
   drawEnd(plot, calculated, "end calculated");
   drawEnd(plot, end, `end ${colourClass(run.direction)}`);
   return plot.svg(
-    `Path of run ${run.id}, truth solid against odometry dashed, in metres, error shown ${k} times` +
-      (bumps.length ? `, ${plural(bumps.length, "bump")} marked` : "")
-  );
+      `Path of run ${run.id}, truth solid against odometry dashed, in metres, error shown ${k} times` +
+      (bumps.length ? `, ${plural(bumps.length, "bump")} marked` : ""));
 }
 
 function drawRobot(plot, pose) {
@@ -158,11 +170,15 @@ function drawBump(plot, [x, y, heading]) {
 }
 
 function pathLegend(data, directions) {
-  const dot = (cssClass) => `<svg width="12" height="12" aria-hidden="true"><circle class="${cssClass}" cx="6" cy="6" r="4.2"/></svg>`;
-  const robot = '<svg width="18" height="14" aria-hidden="true"><path class="robot" transform="translate(6 7)" d="M10 0L-5 5.5L-2 0L-5 -5.5Z"/></svg>';
+  const dot = (cssClass) =>
+      `<svg width="12" height="12" aria-hidden="true"><circle class="${cssClass}" cx="6" cy="6" r="4.2"/></svg>`;
+  const arrow = '<path class="robot" transform="translate(6 7)" d="M10 0L-5 5.5L-2 0L-5 -5.5Z"/>';
+  const robot = `<svg width="18" height="14" aria-hidden="true">${arrow}</svg>`;
   const bump = '<svg width="8" height="14" aria-hidden="true"><line class="bump" x1="4" x2="4" y1="2" y2="12"/></svg>';
   const items = directions.map((d) => [lineIcon(`truth ${colourClass(d)}`), `truth, ${escapeHtml(d)}`]);
-  items.push([lineIcon("odometry"), "odometry"], [robot, "start"], [dot(`end ${colourClass(directions[0])}`), "true end"], [dot("end calculated"), "calculated end"]);
+  items.push(
+      [lineIcon("odometry"), "odometry"], [robot, "start"], [dot(`end ${colourClass(directions[0])}`), "true end"],
+      [dot("end calculated"), "calculated end"]);
   if (data.bumps.length) items.push([bump, "bump"]);
   return items;
 }

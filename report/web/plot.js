@@ -14,7 +14,7 @@ function niceTicks([low, high], count) {
   const decimals = Math.min(20, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
   const ticks = [];
   for (let i = Math.ceil(low / step - 1e-9); i * step <= high + step * 1e-9; ++i) {
-    ticks.push({ value: i * step, text: minus((i * step).toFixed(decimals)) });
+    ticks.push({value: i * step, text: minus((i * step).toFixed(decimals))});
   }
   return ticks;
 }
@@ -27,7 +27,7 @@ class Plot {
   // options: width, height, x: [low, high], y: [low, high], xLabel, yLabel
   constructor(options) {
     Object.assign(this, options);
-    const ticks = niceTicks(this.y, Math.max(3, Math.round(this.height / 60)));
+    const ticks = niceTicks(this.y, Math.max(4, Math.round(this.height / 70)));
     const digits = Math.max(...ticks.map((t) => t.text.length));
     this.yTicks = ticks;
     this.left = 30 + 7 * digits;
@@ -39,7 +39,7 @@ class Plot {
 
   // Equal scale on both axes: the plot area is as wide as high; ranges of equal span are asked for.
   static square(options) {
-    const plot = new Plot({ ...options, height: options.width });
+    const plot = new Plot({...options, height: options.width});
     plot.height = plot.right - plot.left + plot.top + 42;
     plot.bottom = plot.height - 42;
     return plot;
@@ -64,9 +64,8 @@ class Plot {
 
   line(a, b, cssClass) {
     this.add(
-      `<line class="${cssClass}" x1="${px(this.px(a[0]))}" y1="${px(this.py(a[1]))}" ` +
-        `x2="${px(this.px(b[0]))}" y2="${px(this.py(b[1]))}"/>`
-    );
+        `<line class="${cssClass}" x1="${px(this.px(a[0]))}" y1="${px(this.py(a[1]))}" ` +
+        `x2="${px(this.px(b[0]))}" y2="${px(this.py(b[1]))}"/>`);
   }
 
   path(points, cssClass) {
@@ -77,18 +76,16 @@ class Plot {
 
   circle(centre, radius, cssClass) {
     this.add(
-      `<circle class="${cssClass}" cx="${px(this.px(centre[0]))}" cy="${px(this.py(centre[1]))}" ` +
-        `r="${px(radius * this.scale)}"/>`
-    );
+        `<circle class="${cssClass}" cx="${px(this.px(centre[0]))}" cy="${px(this.py(centre[1]))}" ` +
+        `r="${px(radius * this.scale)}"/>`);
   }
 
   ellipse(centre, ellipse, cssClass) {
     const x = px(this.px(centre[0]));
     const y = px(this.py(centre[1]));
     this.add(
-      `<ellipse class="${cssClass}" cx="${x}" cy="${y}" rx="${px(ellipse.a * this.scale)}" ` +
-        `ry="${px(ellipse.b * this.scale)}" transform="rotate(${px(-ellipse.angle_rad * DEG)} ${x} ${y})"/>`
-    );
+        `<ellipse class="${cssClass}" cx="${x}" cy="${y}" rx="${px(ellipse.a * this.scale)}" ` +
+        `ry="${px(ellipse.b * this.scale)}" transform="rotate(${px(-ellipse.angle_rad * DEG)} ${x} ${y})"/>`);
   }
 
   marker(point, direction, stage, title) {
@@ -112,31 +109,34 @@ class Plot {
 
   axes() {
     let svg = "";
-    for (const tick of niceTicks(this.x, Math.max(3, Math.round((this.right - this.left) / 80)))) {
+    const css = (tick) => (tick.value === 0 ? "zero" : "grid");
+    const area = {left: px(this.left), right: px(this.right), top: px(this.top), bottom: px(this.bottom)};
+    for (const tick of niceTicks(this.x, Math.max(4, Math.round((this.right - this.left) / 70)))) {
       const x = px(this.px(tick.value));
-      svg += `<line class="${tick.value === 0 ? "zero" : "grid"}" x1="${x}" x2="${x}" y1="${this.top}" y2="${px(this.bottom)}"/>`;
+      svg += `<line class="${css(tick)}" x1="${x}" x2="${x}" y1="${area.top}" y2="${area.bottom}"/>`;
       svg += `<text text-anchor="middle" x="${x}" y="${px(this.bottom + 16)}">${tick.text}</text>`;
     }
     for (const tick of this.yTicks) {
-      const y = px(this.py(tick.value));
-      svg += `<line class="${tick.value === 0 ? "zero" : "grid"}" x1="${this.left}" x2="${px(this.right)}" y1="${y}" y2="${y}"/>`;
-      svg += `<text text-anchor="end" x="${this.left - 6}" y="${px(this.py(tick.value) + 4)}">${tick.text}</text>`;
+      const y = this.py(tick.value);
+      svg += `<line class="${css(tick)}" x1="${area.left}" x2="${area.right}" y1="${px(y)}" y2="${px(y)}"/>`;
+      svg += `<text text-anchor="end" x="${px(this.left - 6)}" y="${px(y + 4)}">${tick.text}</text>`;
     }
-    const midX = px((this.left + this.right) / 2);
-    const midY = px((this.top + this.bottom) / 2);
-    svg += `<text class="axis-label" text-anchor="middle" x="${midX}" y="${px(this.height - 6)}">${this.xLabel}</text>`;
-    svg += `<text class="axis-label" text-anchor="middle" transform="translate(13 ${midY}) rotate(-90)">${this.yLabel}</text>`;
+    const x = px((this.left + this.right) / 2);
+    const y = px((this.top + this.bottom) / 2);
+    const label = 'class="axis-label" text-anchor="middle"';
+    svg += `<text ${label} x="${x}" y="${px(this.height - 6)}">${this.xLabel}</text>`;
+    svg += `<text ${label} transform="translate(13 ${y}) rotate(-90)">${this.yLabel}</text>`;
     return svg;
   }
 
   svg(description) {
     const clip = `clip-${++plotCount}`;
-    const area = `x="${this.left}" y="${this.top}" width="${px(this.right - this.left)}" height="${px(this.bottom - this.top)}"`;
+    const area =
+        `x="${this.left}" y="${this.top}" width="${px(this.right - this.left)}" height="${px(this.bottom - this.top)}"`;
     return (
-      `<svg role="img" aria-label="${escapeHtml(description)}" viewBox="0 0 ${px(this.width)} ${px(this.height)}" ` +
-      `width="${px(this.width)}"><clipPath id="${clip}"><rect ${area}/></clipPath>${this.axes()}` +
-      `<rect class="frame" ${area}/><g clip-path="url(#${clip})">${this.body}</g></svg>`
-    );
+        `<svg role="img" aria-label="${escapeHtml(description)}" viewBox="0 0 ${px(this.width)} ${px(this.height)}" ` +
+        `width="${px(this.width)}"><clipPath id="${clip}"><rect ${area}/></clipPath>${this.axes()}` +
+        `<rect class="frame" ${area}/><g clip-path="url(#${clip})">${this.body}</g></svg>`);
   }
 }
 
@@ -153,12 +153,13 @@ function markerSvg(x, y, direction, stage, title = "") {
 }
 
 const markerIcon = (direction, stage) =>
-  `<svg class="swatch" width="14" height="14" aria-hidden="true">${markerSvg(7, 7, direction, stage)}</svg>`
-    .replace('class="pt ', 'class="icon pt ');
+    `<svg class="swatch" width="14" height="14" aria-hidden="true">${markerSvg(7, 7, direction, stage)}</svg>`.replace(
+        'class="pt ', 'class="icon pt ');
 
 const lineIcon = (cssClass) =>
-  `<svg width="30" height="12" aria-hidden="true"><line class="${cssClass}" x1="1" y1="6" x2="29" y2="6"/></svg>`;
+    `<svg width="30" height="12" aria-hidden="true"><line class="${cssClass}" x1="1" y1="6" x2="29" y2="6"/></svg>`;
 
-const legendHtml = (items) => `<ul class="legend">${items.map(([icon, text]) => `<li>${icon}<span>${text}</span></li>`).join("")}</ul>`;
+const legendHtml = (items) =>
+    `<ul class="legend">${items.map(([icon, text]) => `<li>${icon}<span>${text}</span></li>`).join("")}</ul>`;
 
 const panelWidth = (element) => Math.max(260, Math.min(640, element.clientWidth || 480));

@@ -8,16 +8,17 @@ function setupScatter(data, section) {
   const present = STAGES.filter((stage) => runsOf(data, stage).length > 0);
   const visible = new Set(present.filter((s) => s !== "bumped" || present.length === 1));
   const zoomed = present.includes("after") && present.length > 1;
+  const panel = (title, cssClass = "") =>
+      `<div class="panel ${cssClass}"><p class="panel-title">${title}</p><div class="plot"></div></div>`;
+  const boxes = present.map(toggle).join("");
+  const toggles = `<div class="controls" role="group" aria-label="Clusters shown">${boxes}</div>`;
   section.innerHTML = `
     <h2>Figure 1. Return position errors</h2>
     <figure>
-      ${present.length > 1 ? `<div class="controls" role="group" aria-label="Clusters shown">${present.map(toggle).join("")}</div>` : ""}
-      <div class="panels">
-        <div class="panel ${zoomed ? "" : "alone"}"><p class="panel-title">Return errors</p><div class="plot"></div></div>
-        ${zoomed ? `<div class="panel"><p class="panel-title">After calibration, enlarged</p><div class="plot"></div></div>` : ""}
-      </div>
+      ${present.length > 1 ? toggles : ""}
+      <div class="panels">${zoomed ? panel("All clusters") + panel("") : panel("All clusters", "alone")}</div>
       <div class="legend-slot"></div>
-      <figcaption>${SCATTER_CAPTION}</figcaption>
+      <figcaption>${CAPTIONS.scatter}</figcaption>
     </figure>`;
 
   function toggle(stage) {
@@ -30,31 +31,27 @@ function setupScatter(data, section) {
     const plots = section.querySelectorAll(".plot");
     const shown = present.filter((s) => visible.has(s));
     const zoomSpan = zoomed ? spanOf(data, ["after"]) : undefined;
-    plots[0].innerHTML = scatterSvg(data, shown, panelWidth(plots[0]), visible.has("after") && shown.length > 1 ? zoomSpan : undefined);
+    plots[0].innerHTML =
+        scatterSvg(data, shown, panelWidth(plots[0]), visible.has("after") && shown.length > 1 ? zoomSpan : undefined);
     if (zoomed) {
       const title = plots[1].previousElementSibling;
       const times = spanOf(data, shown.length ? shown : ["after"]) / zoomSpan;
-      title.textContent = `After calibration${times > 1.05 ? `, enlarged ${fixed(times, times < 10 ? 1 : 0)}\u00d7` : ""}`;
+      title.textContent =
+          `After calibration${times > 1.05 ? `, enlarged ${fixed(times, times < 10 ? 1 : 0)}\u00d7` : ""}`;
       plots[1].innerHTML = scatterSvg(data, ["after"], panelWidth(plots[1]));
     }
     section.querySelector(".legend-slot").innerHTML = scatterLegend(data, shown, zoomed);
   }
 
   section.addEventListener("change", (event) => {
-    if (event.target.checked) visible.add(event.target.value);
-    else visible.delete(event.target.value);
+    if (event.target.checked)
+      visible.add(event.target.value);
+    else
+      visible.delete(event.target.value);
     draw();
   });
   return draw;
 }
-
-const SCATTER_CAPTION =
-  "Each mark is one driven square: where the robot really stood at its end minus where its odometry said it stood " +
-  "(absolute \u2212 calculated; x along the start heading, y to the left). How far the centre of a cluster lies from the " +
-  "origin, r<sub>cg</sub>, is the <b>systematic</b> error, which calibration can remove. The spread about that centre is the " +
-  "<b>non-systematic</b> error, which it cannot. The practical user cares for the worst, so the score " + E_MAX +
-  " is the larger of the two r<sub>cg</sub>. The heading error is not scored: a heading that is wrong on the way moves the " +
-  "end point, so the position errors already contain it.";
 
 // Half the width of the square, origin-centred view that holds the points and the circle, in mm.
 function spanOf(data, stages) {
@@ -68,7 +65,7 @@ function spanOf(data, stages) {
 
 function scatterSvg(data, stages, width, zoomSpan) {
   const span = spanOf(data, stages);
-  const plot = Plot.square({ width, x: [-span, span], y: [-span, span], xLabel: "x error (mm)", yLabel: "y error (mm)" });
+  const plot = Plot.square({width, x: [-span, span], y: [-span, span], xLabel: "x error (mm)", yLabel: "y error (mm)"});
   const texts = [];
   for (const stage of stages) {
     const clusters = clustersOf(data, stage);
@@ -77,7 +74,8 @@ function scatterSvg(data, stages, width, zoomSpan) {
       drawCluster(plot, runsOf(data, stage, direction), direction, stage, cluster);
       texts.push(`${directionName(direction)} ${stageName(stage)}: centre ${mmUnit(cluster.r_cg_m)} from the origin`);
     }
-    for (const run of runsOf(data, stage)) if (!clusters[run.direction]) drawPoint(plot, run);
+    for (const run of runsOf(data, stage))
+      if (!clusters[run.direction]) drawPoint(plot, run);
   }
   if (zoomSpan && zoomSpan < span * 0.7) drawZoomBox(plot, zoomSpan);
   return plot.svg(`Scatter of return position errors. ${texts.join("; ") || "Nothing selected"}.`);
@@ -86,8 +84,8 @@ function scatterSvg(data, stages, width, zoomSpan) {
 function drawCluster(plot, runs, direction, stage, cluster) {
   const centre = [cluster.centroid_x_m * 1000, cluster.centroid_y_m * 1000];
   if (runs.length > 2) {
-    const { a_m, b_m, angle_rad } = cluster.ellipse;
-    plot.ellipse(centre, { a: a_m * 1000, b: b_m * 1000, angle_rad }, `spread ${direction}`);
+    const {a_m, b_m, angle_rad} = cluster.ellipse;
+    plot.ellipse(centre, {a: a_m * 1000, b: b_m * 1000, angle_rad}, `spread ${direction}`);
   }
   plot.line([0, 0], centre, `radius ${direction}`);
   runs.forEach((run) => drawPoint(plot, run));
@@ -95,7 +93,7 @@ function drawCluster(plot, runs, direction, stage, cluster) {
 }
 
 function drawPoint(plot, run) {
-  const { x_m, y_m, theta_rad } = run.error;
+  const {x_m, y_m, theta_rad} = run.error;
   const title = `${run.id}, ${stageName(run.stage)}: x ${mmUnit(x_m)}, y ${mmUnit(y_m)}, heading ${degUnit(theta_rad)}`;
   plot.marker([x_m * 1000, y_m * 1000], run.direction, run.stage, title);
 }
@@ -107,7 +105,8 @@ function drawCircle(plot, clusters, eMax) {
   if (r * plot.scale < 70) return;
   const directions = Object.values(clusters).map((c) => Math.atan2(c.centroid_y_m, c.centroid_x_m));
   const distance = (a) => Math.min(...directions.map((d) => Math.abs(Math.atan2(Math.sin(a - d), Math.cos(a - d)))));
-  const best = [90, 270, 120, 60, 240, 300].map((a) => a / DEG).reduce((a, b) => (distance(b) > distance(a) + 1e-9 ? b : a));
+  const best =
+      [90, 270, 120, 60, 240, 300].map((a) => a / DEG).reduce((a, b) => (distance(b) > distance(a) + 1e-9 ? b : a));
   const text = `E<tspan dy="3" font-size="9">max,syst</tspan><tspan dy="-3"> = ${mmUnit(eMax)}</tspan>`;
   plot.label([r * Math.cos(best), r * Math.sin(best)], text, 20);
 }
@@ -128,10 +127,13 @@ function scatterLegend(data, shown, zoomed) {
     }
   }
   const cross = '<svg width="16" height="16" aria-hidden="true"><path class="centroid" d="M1 8H15M8 1V15"/></svg>';
-  const ellipse = '<svg width="24" height="14" aria-hidden="true"><ellipse class="spread cw" cx="12" cy="7" rx="11" ry="6"/></svg>';
-  const box = '<svg width="14" height="14" aria-hidden="true"><rect class="zoom-box" x="1" y="1" width="12" height="12"/></svg>';
+  const ellipse =
+      '<svg width="24" height="14" aria-hidden="true"><ellipse class="spread cw" cx="12" cy="7" rx="11" ry="6"/></svg>';
+  const square = '<rect class="zoom-box" x="1" y="1" width="12" height="12"/>';
+  const box = `<svg width="14" height="14" aria-hidden="true">${square}</svg>`;
   items.push([cross, "centre of gravity"], [lineIcon("radius cw"), "r<sub>cg</sub>"]);
-  if (stages.some((s) => ["cw", "ccw"].some((d) => runsOf(data, s, d).length > 2))) items.push([ellipse, "1\u03c3 spread"]);
+  if (stages.some((s) => ["cw", "ccw"].some((d) => runsOf(data, s, d).length > 2)))
+    items.push([ellipse, "1\u03c3 spread"]);
   if (stages.some((s) => isNumber(eMaxOf(clustersOf(data, s))))) items.push([lineIcon("emax"), `radius ${E_MAX}`]);
   if (zoomed && shown.includes("after") && shown.length > 1) items.push([box, "enlarged part"]);
   return legendHtml(items);

@@ -18,7 +18,7 @@ function clusterOf(runs) {
   const x = runs.map((r) => r.error.x_m);
   const y = runs.map((r) => r.error.y_m);
   const theta = runs.map((r) => r.error.theta_rad).filter(isNumber);
-  const cluster = { runs: runs.length, centroid_x_m: mean(x), centroid_y_m: mean(y) };
+  const cluster = {runs: runs.length, centroid_x_m: mean(x), centroid_y_m: mean(y)};
   cluster.r_cg_m = Math.hypot(cluster.centroid_x_m, cluster.centroid_y_m);
   if (theta.length === runs.length) cluster.heading_rad = mean(theta);
   if (runs.length > 1) {
@@ -46,7 +46,7 @@ function ellipseOf(xx, xy, yy) {
 }
 
 const runsOf = (data, stage, direction) =>
-  data.runs.filter((r) => hasError(r) && r.stage === stage && (!direction || r.direction === direction));
+    data.runs.filter((r) => hasError(r) && r.stage === stage && (!direction || r.direction === direction));
 
 function clustersOf(data, stage) {
   const clusters = {};

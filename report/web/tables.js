@@ -8,27 +8,29 @@ function table(caption, head, rows, textColumns = 0) {
   if (!kept.length) return "";
   const css = (i) => (i <= textColumns ? ' class="text"' : "");
   const thead = head.map((h, i) => `<th scope="col"${css(i)}>${h}</th>`).join("");
-  const body = kept.map((row) => `<tr><th scope="row">${row[0]}</th>` + row.slice(1).map((c, i) => `<td${css(i + 1)}>${c}</td>`).join("") + "</tr>");
-  return `<div class="table-wrap" tabindex="0" role="region" aria-label="${escapeHtml(caption)}"><table><caption>${caption}</caption>` +
-    `<thead><tr>${thead}</tr></thead><tbody>${body.join("")}</tbody></table></div>`;
+  const body = kept.map(
+      (row) => `<tr><th scope="row">${row[0]}</th>` +
+          row.slice(1).map((c, i) => `<td${css(i + 1)}>${c}</td>`).join("") + "</tr>");
+  const region = `class="table-wrap" tabindex="0" role="region" aria-label="${escapeHtml(caption)}"`;
+  return `<div ${region}><table><caption>${caption}</caption><thead><tr>${thead}</tr></thead>` +
+      `<tbody>${body.join("")}</tbody></table></div>`;
 }
+
+// The explanation stands beside its table where there is room.
+const beside = (tableHtml, note) =>
+    (tableHtml ? `<div class="beside">${tableHtml}<div class="note muted">${note}</div></div>` : "");
 
 const section = (heading, html) => (html ? `<section><h2>${heading}</h2>${html}</section>` : "");
 
 function oneWayHtml(data) {
   const one = data.summary.one_way;
   if (!one) return "";
-  const warning =
-    one.warning || "One error can hide the other when the square is driven in one direction only: this test is unfit for differential drives.";
-  return (
-    `<p class="notice"><b>Read with care.</b> ${escapeHtml(warning)}</p>` +
-    table(`One-way square, ${escapeHtml(directionName(one.direction))}`, ["Quantity", "Value"], [
-      ["r<sub>cg</sub> (mm)", mm(one.r_cg_m)],
-      ["mean heading error (°)", deg(one.e_theta_rad)],
-    ]) +
-    `<p class="note muted">A robot that turns only 87° at each corner and drives its legs on a slight curve can still come back to
-     its start. Driven the other way round, what cancelled adds up. Therefore the two-way test.</p>`
-  );
+  const warning = one.warning || CAPTIONS.oneWayWarning;
+  const html = table(`One-way square, ${escapeHtml(directionName(one.direction))}`, ["Quantity", "Value"], [
+    ["r<sub>cg</sub> (mm)", mm(one.r_cg_m)],
+    ["mean heading error (°)", deg(one.e_theta_rad)],
+  ]);
+  return `<p class="notice"><b>Read with care.</b> ${escapeHtml(warning)}</p>` + beside(html, CAPTIONS.oneWay);
 }
 
 function umbmarkHtml(data) {
@@ -46,24 +48,27 @@ function umbmarkHtml(data) {
   const length = (key) => columns.map(([, c]) => mm(c[key], mmDecimals(lengths.map((l) => c[l]))));
   const angle = (key) => columns.map(([, c]) => deg(c[key]));
   const spread = (cells) => cells.map((cell, i) => (columns[i][1].runs === 1 ? "\u2013" : cell));  // one run has none
-  const eMax = columns.map(([name]) => {
-    const value = name === `${worst(before)}${suffix}` ? before.e_max_syst_m : name === `${worst(after)} after` ? eMaxOf(after) : undefined;
-    return isNumber(value) ? `<b>${mm(value)}</b>` : "\u2013";
+  const eMax = columns.map(([name, c]) => {
+    const value = name === `${worst(before)}${suffix}` ? before.e_max_syst_m :
+        name === `${worst(after)} after` ? eMaxOf(after) :
+                                           undefined;
+    return isNumber(value) ? `<b>${mm(value, mmDecimals(lengths.map((l) => c[l])))}</b>` : "\u2013";
   });
-  return table("Centres of gravity and spread of the end points", ["Quantity", ...columns.map(([name]) => name)], [
-    ["runs", ...columns.map(([, c]) => (isNumber(c.runs) ? String(c.runs) : "\u2013"))],
-    ["x<sub>cg</sub> (mm)", ...length("centroid_x_m")],
-    ["y<sub>cg</sub> (mm)", ...length("centroid_y_m")],
-    ["r<sub>cg</sub> (mm)", ...length("r_cg_m")],
-    [`${E_MAX}, the larger (mm)`, ...eMax],
-    ["sd x (mm)", ...spread(length("sd_x_m"))],
-    ["sd y (mm)", ...spread(length("sd_y_m"))],
-    ["sd along one axis (mm)", ...spread(length("sd_m"))],
-    ["standard error of the centre (mm)", ...spread(length("standard_error_m"))],
-    ["mean heading error (°)", ...angle("heading_rad")],
-    ["sd heading (°)", ...spread(angle("sd_heading_rad"))],
-  ]) + `<p class="note muted">r<sub>cg</sub> = \u221a(x<sub>cg</sub>² + y<sub>cg</sub>²). With r<sub>cg</sub> below about three
-    standard errors, a further calibration would only fit the noise.</p>`;
+  const html =
+      table("Centres of gravity and spread of the end points", ["Quantity", ...columns.map(([name]) => name)], [
+        ["runs", ...columns.map(([, c]) => (isNumber(c.runs) ? String(c.runs) : "\u2013"))],
+        ["x<sub>cg</sub> (mm)", ...length("centroid_x_m")],
+        ["y<sub>cg</sub> (mm)", ...length("centroid_y_m")],
+        ["r<sub>cg</sub> (mm)", ...length("r_cg_m")],
+        [`${E_MAX}, the larger (mm)`, ...eMax],
+        ["sd x (mm)", ...spread(length("sd_x_m"))],
+        ["sd y (mm)", ...spread(length("sd_y_m"))],
+        ["sd along one axis (mm)", ...spread(length("sd_m"))],
+        ["standard error of the centre (mm)", ...spread(length("standard_error_m"))],
+        ["mean heading error (°)", ...angle("heading_rad")],
+        ["sd heading (°)", ...spread(angle("sd_heading_rad"))],
+      ]);
+  return beside(html, CAPTIONS.twoWay);
 }
 
 function worst(clusters) {
@@ -78,34 +83,38 @@ function returnErrorsHtml(data) {
     const stage = runs.filter((r) => r.stage === run.stage);
     decimals[run.stage] ??= mmDecimals(stage.flatMap((r) => [r.error.x_m, r.error.y_m]));
   }
-  return table("Return error of every run: absolute \u2212 calculated", ["Run", "Stage", "e<sub>x</sub> (mm)", "e<sub>y</sub> (mm)", "distance (mm)", "e<sub>\u03b8</sub> (°)"],
-    runs.map((r) => {
-      const d = decimals[r.stage];
-      const { x_m, y_m, theta_rad } = r.error;
-      return [`${markerIcon(r.direction, r.stage)}${escapeHtml(r.id)}`, escapeHtml(stageName(r.stage)), mm(x_m, d), mm(y_m, d), mm(Math.hypot(x_m, y_m), d), deg(theta_rad, 3)];
-    }), 1);
+  return table(
+      "Return error of every run: absolute \u2212 calculated",
+      ["Run", "Stage", "e<sub>x</sub> (mm)", "e<sub>y</sub> (mm)", "distance (mm)", "e<sub>\u03b8</sub> (°)"],
+      runs.map((r) => {
+        const d = decimals[r.stage];
+        const {x_m, y_m, theta_rad} = r.error;
+        return [
+          `${markerIcon(r.direction, r.stage)}${escapeHtml(r.id)}`, escapeHtml(stageName(r.stage)), mm(x_m, d),
+          mm(y_m, d), mm(Math.hypot(x_m, y_m), d), deg(theta_rad, 3)
+        ];
+      }),
+      1);
 }
 
 function extendedHtml(data) {
   const e = data.summary.extended;
   if (!e) return "";
-  return table("Mean absolute heading error", ["Quantity", "Value (°)"], [
+  const html = table("Mean absolute heading error", ["Quantity", "Value (°)"], [
     ["cw runs", deg(e.cw_mean_abs_heading_error_rad)],
     ["ccw runs", deg(e.ccw_mean_abs_heading_error_rad)],
     ["extended UMBmark figure (sum of both)", `<b>${deg(e.mean_abs_heading_error_rad)}</b>`],
     ["per bump", deg(e.per_bump_heading_error_rad)],
-  ]) + `<p class="note muted">Cables under the inner wheel stand for an uneven floor. Each turns the robot by a fixed angle towards the
-    bumped wheel. Where the robot ends depends on where the cables lie; how much it has turned does not. So the measure here is the
-    heading: for each direction the mean of |e<sub>\u03b8</sub> \u2212 mean of the plain runs|, absolute so that +1° and \u22121° do not
-    cancel.</p>`;
+  ]);
+  return beside(html, CAPTIONS.extended);
 }
 
 function calibrationHtml(data) {
-  const { umbmark = {}, calibration = {}, injected } = data.summary;
+  const {umbmark = {}, calibration = {}, injected = {}} = data.summary;
   const columns = [
-    ["from end points", { ...umbmark.endpoint, ...calibration.endpoint }],
-    ["from headings", { ...umbmark.heading, ...calibration.heading }],
-    ["injected", injected || {}],
+    ["from end points", {...umbmark.endpoint, ...calibration.endpoint}],
+    ["from headings", {...umbmark.heading, ...calibration.heading}],
+    ["injected", {...anglesOf(injected, data), ...injected}],
   ].filter(([, c]) => Object.values(c).some(isNumber));
   const row = (name, value) => [name, ...columns.map(([, c]) => value(c))];
   const b = data.wheelbase_m;
@@ -117,9 +126,19 @@ function calibrationHtml(data) {
     row("E<sub>b</sub> = b<sub>actual</sub> / b<sub>nominal</sub>", (c) => fixed(c.e_b, 5)),
     row("b<sub>actual</sub> (mm)", (c) => (isNumber(b) && isNumber(c.e_b) ? mm(c.e_b * b, 2) : "\u2013")),
     row("c<sub>L</sub> = 2 / (E<sub>d</sub> + 1)", (c) => (isNumber(c.e_d) ? fixed(2 / (c.e_d + 1), 5) : "\u2013")),
-    row("c<sub>R</sub> = 2 / (1/E<sub>d</sub> + 1)", (c) => (isNumber(c.e_d) ? fixed(2 / (1 / c.e_d + 1), 5) : "\u2013")),
+    row("c<sub>R</sub> = 2 / (1/E<sub>d</sub> + 1)",
+        (c) => (isNumber(c.e_d) ? fixed(2 / (1 / c.e_d + 1), 5) : "\u2013")),
   ]);
-  return html && html + sharesHtml(umbmark) + TYPE_TEXT;
+  return beside(html, sharesHtml(umbmark) + CAPTIONS.types);
+}
+
+// Alpha and beta that belong to known E_d and E_b: the equations of the lecture solved for them.
+function anglesOf({e_d: eD, e_b: eB}, {side_m: side, wheelbase_m: b}) {
+  const angles = {};
+  if (isNumber(eB)) angles.alpha_rad = (Math.PI / 2) * (1 - 1 / eB);
+  if (isNumber(eD) && isNumber(side) && isNumber(b))
+    angles.beta_rad = 2 * Math.asin(((side / b) * (eD - 1)) / (eD + 1));
+  return angles;
 }
 
 function curvature(beta, side) {
@@ -128,30 +147,25 @@ function curvature(beta, side) {
   return Math.abs(radius) < 1e6 ? fixed(radius, 1) : "straight";
 }
 
-function sharesHtml({ type_a_share: a, type_b_share: b }) {
-  return isNumber(a) && isNumber(b) ? `<p>Here type A makes ${fixed(a * 100, 0)}&nbsp;% and type B ${fixed(b * 100, 0)}&nbsp;% of the error.</p>` : "";
+function sharesHtml({type_a_share: a, type_b_share: b}) {
+  return isNumber(a) && isNumber(b) ?
+      `<p>Here type A makes ${fixed(a * 100, 0)}&nbsp;% and type B ${fixed(b * 100, 0)}&nbsp;% of the error.</p>` :
+      "";
 }
-
-const TYPE_TEXT =
-  `<p class="note muted"><b>Type A</b> changes the total turn alike in both directions. It comes from the wheelbase (E<sub>b</sub>): a robot
-   that turns 85° when told 90° turns 4 \u00d7 85° = 340° either way. <b>Type B</b> acts in opposite senses: with unequal wheels
-   (E<sub>d</sub>) every leg is an arc, so one direction turns too far in all and the other too little. They occur together; only the sum
-   and the difference of the two directions tell them apart. The end-point form is the published one (small angles); the form from
-   headings is exact.</p>`;
 
 function recoveryHtml(data) {
   const r = data.summary.recovery;
   if (!r) return "";
   const before = (data.summary.umbmark || {}).e_max_syst_m;
-  return "<h3>Driven again with the calibrated odometry</h3>" + table("What was recovered", ["Quantity", "Value"], [
+  const html = table("What was recovered", ["Quantity", "Value"], [
     [`${E_MAX} before (mm)`, mm(before)],
     [`${E_MAX} after (mm)`, mm(r.e_max_after_m)],
     ["improvement, factor", factor(r.improvement)],
     ["E<sub>d</sub>, recovered \u2212 injected", signedSmall(r.e_d_error)],
     ["E<sub>b</sub>, recovered \u2212 injected", signedSmall(r.e_b_error)],
     ["calibration passes", isNumber(r.passes) ? String(r.passes) : "\u2013"],
-  ]) + `<p class="note muted">The squares are driven anew; nothing here is predicted by algebra. On the real LabMate of the original
-    paper the factor was 10 to 22. The mean wheel diameter stays as it was: no closed square can observe it.</p>`;
+  ]);
+  return html && "<h3>Driven again with the calibrated odometry</h3>" + beside(html, CAPTIONS.recovery);
 }
 
 function costHtml(data) {

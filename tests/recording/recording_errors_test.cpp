@@ -119,9 +119,9 @@ TEST(RecordingErrors, Runs) {
       {"id: b", "id: b, inner_wheel_bumps: 2.5",
        "recording.yaml:12:32: runs[1].inner_wheel_bumps: expected an integer, got '2.5'"},
       {"id: b", "id: b, bumps: [{x_m: 1, y_m: 0, height_m: 0.01}, {x_m: 1, y_m: 0}]",
-       "recording.yaml:12:63: runs[1].bumps[1].height_m: this key is missing"},
+       "recording.yaml:12:55: runs[1].bumps[1].height_m: this key is missing"},
       {"id: b", "id: b, bumps: [{x_m: 1, y_m: 0, height_mm: 1, height_m: 1}]",
-       "recording.yaml:12:45: runs[1].bumps[0].height_mm: unknown key; did you mean 'height_m'? one of: height_m, x_m, "
+       "recording.yaml:12:38: runs[1].bumps[0].height_mm: unknown key; did you mean 'height_m'? one of: height_m, x_m, "
        "y_m"},
   };
   for (const auto& [old_text, new_text, expected] : cases) EXPECT_EQ(message_of_yaml(old_text, new_text), expected);

@@ -1,10 +1,10 @@
 #!/bin/sh
-# report_page_test.sh REPORT.html: opens the page in headless Chromium and checks that its figures and tables were drawn.
+# report_page_test.sh REPORT.html: opens the page in headless Chromium and checks that figures and tables were drawn.
 # Exit code 77 (skipped) without Chromium; the program is $CHROMIUM, or found.
 set -u
 page=${1:?usage: report_page_test.sh REPORT.html}
 [ -r "$page" ] || { echo "FAIL: cannot read $page"; exit 1; }
-page=$(realpath "$page")
+case $page in /*) ;; *) page=$PWD/$page ;; esac
 
 for candidate in "${CHROMIUM:-}" chromium chromium-browser google-chrome; do
   browser=$(command -v "$candidate" 2>/dev/null) && break
@@ -19,7 +19,8 @@ timeout 120 "$browser" --headless --no-sandbox --disable-gpu --disable-quic --no
   || { echo "FAIL: $browser could not open the page"; tail -n 5 "$folder/browser.log"; exit 1; }
 
 # What the reader sees: the document without its scripts and style.
-awk '/<(script|style)/ {hidden = 1} !hidden {print} /<\/(script|style)>/ {hidden = 0}' "$folder/dom.html" >"$folder/seen.html"
+awk '/<(script|style)/ {hidden = 1} !hidden {print} /<\/(script|style)>/ {hidden = 0}' "$folder/dom.html" \
+  >"$folder/seen.html"
 data=$(grep -F 'id="report-data"' "$page")
 
 failures=0
@@ -32,7 +33,8 @@ grep -q 'data-drawn="true"' "$folder/seen.html" || fail "the script did not reac
 grep -q '<div id="page-error" role="alert" hidden' "$folder/seen.html" ||
   fail "error banner: $(grep -F 'id="page-error"' "$folder/seen.html")"
 for word in NaN undefined Infinity '\[object'; do
-  ! grep -q "$word" "$folder/seen.html" || fail "'$word' on the page: $(grep -o ".\{40\}$word" "$folder/seen.html" | head -n 1)"
+  ! grep -q "$word" "$folder/seen.html" ||
+    fail "'$word' on the page: $(grep -o ".\{40\}$word" "$folder/seen.html" | head -n 1)"
 done
 at_least '<h1>' 1 "title"
 

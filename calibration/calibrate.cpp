@@ -1,0 +1,22 @@
+#include "calibration/calibrate.h"
+
+#include <fmt/format.h>
+
+namespace umbsim {
+
+OdometryParameters corrected(const OdometryParameters& odometry, const ErrorEstimate& errors) {
+  OdometryParameters result = odometry;
+  result.left_radius_m *= errors.left_factor;
+  result.right_radius_m *= errors.right_factor;
+  result.wheelbase_m *= errors.e_b;
+  return result;
+}
+
+std::string calibration_yaml(const OdometryParameters& o, const std::string& comment) {
+  return fmt::format(
+      "# {}\n# Put this block into a scenario, or give it to the robot's controller.\n"
+      "odometry:\n  left_radius_m: {:.9f}\n  right_radius_m: {:.9f}\n  wheelbase_m: {:.9f}\n",
+      comment, o.left_radius_m, o.right_radius_m, o.wheelbase_m);
+}
+
+}  // namespace umbsim

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace umbsim {
+
+/// Each adds one subcommand to the program and its work as the subcommand's callback.
+void add_run_command(CLI::App& app);
+void add_calibrate_command(CLI::App& app);
+void add_effects_command(CLI::App& app);
+
+}  // namespace umbsim

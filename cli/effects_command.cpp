@@ -1,0 +1,38 @@
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "effects/catalogue.h"
+
+namespace umbsim {
+namespace {
+
+void list_effects() {
+  for (const EffectInfo& info : catalogue()) {
+    fmt::print("{:<26}{:<12}{}\n", info.name, name(info.stage), info.description);
+  }
+}
+
+void show_effect(const EffectInfo& info) {
+  fmt::print("{} ({})\n  {}\n  lecture: {}\n  source: {}\n", info.name, name(info.stage), info.description,
+             info.lecture, info.source);
+  for (const EffectParameter& p : info.parameters) {
+    fmt::print("  {} [{}]: neutral {}, plausible {} to {}, allowed: {}\n", p.name, p.unit, p.neutral, p.plausible_min,
+               p.plausible_max, p.bounds.text());
+  }
+}
+
+}  // namespace
+
+void add_effects_command(CLI::App& app) {
+  const auto wanted = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("effects", "List the catalogue of effects, or describe one");
+  command->add_option("name", *wanted, "Effect to describe");
+  command->callback([wanted] {
+    if (wanted->empty()) list_effects();
+    else show_effect(find_effect(*wanted));
+  });
+}
+
+}  // namespace umbsim

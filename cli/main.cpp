@@ -1,0 +1,47 @@
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "core/error.h"
+#include "experiment/build_info.h"
+
+namespace {
+
+constexpr int kBadInput = 2;
+constexpr int kRunFailed = 3;
+
+// Every subcommand, in the order of --help.
+constexpr void (*kCommands[])(CLI::App&) = {
+    umbsim::add_run_command,
+    umbsim::add_calibrate_command,
+    umbsim::add_effects_command,
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "umbsim: a physics testbed for honest odometry. Drives UMBmark squares in a Bullet world with wheel errors, "
+      "cables and noise, reports what UMBmark makes of them, calibrates, and proves it by driving again.\n\n"
+      "Exit codes: 0 done, 1 an expectation was not met, 2 bad input or usage, 3 the run failed."};
+  app.name("umbsim");
+  const umbsim::BuildInfo info = umbsim::build_info();
+  app.set_version_flag("--version", fmt::format("umbsim {} ({}, Bullet {})", info.version, info.commit, info.bullet));
+  app.require_subcommand(1);
+  for (const auto add : kCommands) add(app);
+  try {
+    app.parse(argc, argv);
+    return 0;
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : kBadInput;
+  } catch (const umbsim::InputError& e) {
+    fmt::print(stderr, "umbsim: {}\n", e.what());
+    return kBadInput;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "umbsim: the run failed: {}\n", e.what());
+    return kRunFailed;
+  }
+}

@@ -1,0 +1,47 @@
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "cli/tables.h"
+#include "experiment/result_json.h"
+#include "experiment/run.h"
+#include "experiment/run_folder.h"
+#include "report/report.h"
+
+namespace umbsim {
+namespace {
+
+struct RunArguments {
+  std::string scenario = UMBSIM_SCENARIOS_DIR "/umbmark.yaml";
+  std::string out;
+  std::vector<std::string> settings;
+  bool force = false;
+  int jobs = 0;
+};
+
+void run(const RunArguments& a) {
+  const Scenario scenario = read_scenario(a.scenario, a.settings);
+  const std::string out = a.out.empty() ? "results/" + scenario.name : a.out;
+  check_output_folder(out, a.force);
+  const ExperimentResult result = run_experiment(scenario, a.jobs);
+  write_run_folder(result, render_report(report_json(result)), out, a.force);
+  fmt::print("{}Result in {}: open {}/report.html\n", experiment_table(result), out, out);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  const auto a = std::make_shared<RunArguments>();
+  CLI::App* command = app.add_subcommand("run", "Drive a scenario's squares, measure, calibrate, drive again, report");
+  command->add_option("scenario", a->scenario, "Scenario file (YAML); without one the LabMate UMBmark is run");
+  command->add_option("-o,--out", a->out, "Folder for the result; default results/<scenario name>");
+  command->add_option("--set", a->settings, "Replace a value of the scenario: --set course.side_m=2 (repeatable)")
+      ->allow_extra_args(false);
+  command->add_flag("--force", a->force, "Replace a finished result");
+  command->add_option("-j,--jobs", a->jobs, "Runs driven at the same time; 0: one per core")
+      ->check(CLI::Range(0, 1024));
+  command->callback([a] { run(*a); });
+}
+
+}  // namespace umbsim

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "experiment/run.h"
+
+namespace umbsim {
+
+/// What the terminal shows, in the lecture's order: one-way and two-way return errors, E_max, errors of type A and B,
+/// E_d and E_b, extended UMBmark, calibration. Lengths in mm, angles in degrees.
+std::string umbmark_table(const Umbmark& umbmark);
+std::string extended_table(const ExtendedUmbmark& extended);
+std::string experiment_table(const ExperimentResult& result);
+
+}  // namespace umbsim

@@ -1,0 +1,156 @@
+#include "experiment/drive_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.h"
+
+namespace umbsim {
+namespace {
+
+// A cable is laid where the wheel cannot yet touch it, plus this.
+constexpr double kLayAhead_m = 0.010;
+
+// Wheels of the run: the scatter of their radii (wear, temperature, load), the same for the whole run.
+void scatter_radii(Rig& rig, double sd) {
+  if (sd == 0) return;
+  RandomStream random(rig.run.seed, "radius scatter", std::uint64_t(rig.run.number));
+  for (Wheel& wheel : rig.robot.wheels) wheel.radius_m *= 1 + random.normal(0, sd);
+}
+
+int bumped_wheel(BumpWheel wheel, Direction direction) {
+  if (wheel == BumpWheel::left) return 0;
+  if (wheel == BumpWheel::right) return 1;
+  const int inner = direction == Direction::cw ? 1 : 0;  // right-hand turns: the right wheel is inside
+  return wheel == BumpWheel::inner ? inner : 1 - inner;
+}
+
+// Lays the scenario's cables one after another, evenly spread over their leg, just ahead of the wheel.
+class CableLayer {
+ public:
+  CableLayer(const Scenario& scenario, const RunSpec& spec, const Plan& plan)
+      : bumps_(scenario.bumps.laid), wheel_(bumped_wheel(bumps_.wheel, spec.direction)) {
+    if (!spec.bumped) return;
+    const Segment& leg = plan.segments()[2 * (bumps_.leg - 1)];
+    leg_ = 2 * (bumps_.leg - 1);
+    start_ = leg.X_SB_start;
+    length_m_ = leg.length_m;
+  }
+
+  void lay_if_due(const Pose2& X_SB, int segment, World& world, const Rig& rig, RecordedRun& record) {
+    if (segment != leg_ || laid_ >= bumps_.count) return;
+    const double done_m = (inverse(start_) * X_SB).x_m;
+    if (done_m < (laid_ + 0.5) / bumps_.count * length_m_) return;
+    ++laid_;
+    const double heading_rad = world.pose().theta_rad;
+    const double radius_m = rig.robot.wheels[wheel_].radius_m;
+    const double ahead_m = std::sqrt(2 * radius_m * bumps_.height_m) + kLayAhead_m;
+    const Eigen::Vector3d wheel = world.wheel_centre(wheel_);
+    Cable cable;
+    cable.x_m = wheel.x() + ahead_m * std::cos(heading_rad);
+    cable.y_m = wheel.y() + ahead_m * std::sin(heading_rad);
+    cable.direction_rad = heading_rad + M_PI / 2;
+    cable.height_m = bumps_.height_m;
+    world.lay_cable(cable);
+    record.bumps.push_back({cable.x_m, cable.y_m, cable.height_m});
+  }
+
+ private:
+  LaidBumps bumps_;
+  int wheel_;
+  int leg_ = -1;
+  int laid_ = 0;
+  Pose2 start_;
+  double length_m_ = 0;
+};
+
+// Writes down what an experimenter can: ticks, commands, and the absolute pose with its measurement error.
+class Recorder {
+ public:
+  Recorder(const Scenario& scenario, const RunSpec& spec)
+      : truth_(scenario.truth), random_(scenario.seed, "absolute pose", std::uint64_t(spec.number)) {
+    run.id = spec.id;
+    run.direction = name(spec.direction);
+    run.has_commands = true;
+    if (scenario.runs.start_heading_rad != 0) run.start_heading_rad = scenario.runs.start_heading_rad;
+    if (spec.bumped && scenario.bumps.laid.count > 0) run.inner_wheel_bumps = scenario.bumps.laid.count;
+    stride_ = std::max(1, int(std::lround(scenario.encoders.rate_hz / truth_.rate_hz)));
+  }
+
+  void encoders(double time_s, std::int64_t left, std::int64_t right, const WheelSpeeds& command) {
+    run.encoders.push_back({time_s, left, right, command.left_radps, command.right_radps});
+  }
+
+  void truth(int period, int last_period, double time_s, const Pose2& X_WB) {
+    const bool end = period == 0 || period == last_period;
+    if (!end && (truth_.kind == "endpoints" || period % stride_ != 0)) return;
+    const double x = random_.normal(X_WB.x_m, truth_.position_sd_m);
+    const double y = random_.normal(X_WB.y_m, truth_.position_sd_m);
+    run.truth.push_back({time_s, {x, y, random_.normal(X_WB.theta_rad, truth_.heading_sd_rad)}});
+  }
+
+  RecordedRun run;
+
+ private:
+  TruthChoice truth_;
+  RandomStream random_;
+  int stride_ = 1;
+};
+
+}  // namespace
+
+Rig rig_for(const Scenario& s, const RobotModel& nominal, const RunSpec& spec) {
+  Rig rig;
+  rig.robot = nominal;
+  rig.encoders = s.encoders;
+  rig.floor.friction = s.floor_friction;
+  rig.run = {spec.id, spec.number, s.seed};
+  rig.drivetrain.torque_limit_nm = torque_limit(s, nominal);
+  if (spec.bumped) rig.floor.cables = s.bumps.fixed;
+  rig.floor.ripples =
+      random_ripples(s.noise.floor_rms_m, s.noise.floor_wavelength_m, s.seed, std::uint64_t(spec.number));
+  scatter_radii(rig, s.noise.radius_scatter);
+  return apply_effects(s.effects, std::move(rig));
+}
+
+double torque_limit(const Scenario& s, const RobotModel& robot) {
+  if (s.robot.torque_limit_nm > 0) return s.robot.torque_limit_nm;
+  const double effort = std::min(robot.wheels[0].effort_limit_nm, robot.wheels[1].effort_limit_nm);
+  if (effort > 0) return effort;
+  // The whole weight on one wheel, at the friction limit: more torque than this a wheel cannot pass on.
+  return s.floor_friction * robot.total_mass_kg() * s.physics.gravity_mps2 * robot.wheels[0].radius_m;
+}
+
+DrivenRun drive_run(const Scenario& scenario, const RobotModel& nominal, const OdometryParameters& odometry,
+                    const RunSpec& spec) {
+  const Rig rig = rig_for(scenario, nominal, spec);
+  const Plan plan(scenario.course, spec.direction);
+  const DriveGeometry believed{odometry.left_radius_m, odometry.right_radius_m, odometry.wheelbase_m};
+  const double period_s = 1 / scenario.encoders.rate_hz;
+  const int periods = int(std::ceil(plan.duration_s() / period_s));
+
+  World world(rig.robot, rig.drivetrain, rig.floor, scenario.physics);
+  world.place({0, 0, scenario.runs.start_heading_rad});
+  DeadReckoning reckoning(odometry, {});
+  CableLayer cables(scenario, spec, plan);
+  Recorder recorder(scenario, spec);
+  WheelSpeeds command;
+  int segment = 0;
+  for (int period = 0;; ++period) {
+    const double time_s = period * period_s;
+    const std::int64_t left = ticks(rig.encoders, world.wheel_angle(0));
+    const std::int64_t right = ticks(rig.encoders, world.wheel_angle(1));
+    reckoning.update(left, right);
+    recorder.encoders(time_s, left, right, command);
+    recorder.truth(period, periods, time_s, world.pose());
+    if (period == periods) break;
+    segment = plan.at(time_s, segment).segment;
+    cables.lay_if_due(reckoning.pose(), segment, world, rig, recorder.run);
+    command = drive(plan, time_s, period_s, reckoning.pose(), believed, segment);
+    world.command(command.left_radps, command.right_radps);
+    world.advance(period_s);
+  }
+  return {std::move(recorder.run), world.cost()};
+}
+
+}  // namespace umbsim

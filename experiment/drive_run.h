@@ -1,0 +1,32 @@
+#pragma once
+
+#include "experiment/scenario.h"
+#include "recording/recording.h"
+
+namespace umbsim {
+
+/// One run to be driven.
+struct RunSpec {
+  std::string id;
+  Direction direction = Direction::cw;
+  bool bumped = false;
+  int number = 0;  ///< of all runs of the experiment: selects its random streams
+};
+
+/// What a run left behind, and what it cost.
+struct DrivenRun {
+  RecordedRun run;
+  PhysicsCost cost;
+};
+
+/// The robot as it really is in this run: the nominal one with the scenario's effects and the run's noise.
+Rig rig_for(const Scenario& scenario, const RobotModel& nominal, const RunSpec& spec);
+
+/// Torque limit of each motor at the wheel: the scenario's, else the URDF's, else what the tyres can pass on.
+double torque_limit(const Scenario& scenario, const RobotModel& robot);
+
+/// Drives one run: the spine of the program. Throws RunError if the simulation fails.
+DrivenRun drive_run(const Scenario& scenario, const RobotModel& nominal, const OdometryParameters& odometry,
+                    const RunSpec& spec);
+
+}  // namespace umbsim

@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include "recording/yaml_text.h"
+#include "experiment/scenario.h"
+
+namespace umbsim {
+namespace {
+
+std::string optional_line(const char* key, const std::optional<double>& value) {
+  return value ? fmt::format("  {}: {}\n", key, *value) : std::string();
+}
+
+std::string odometry_block(const OdometryChoice& o) {
+  const std::string lines = optional_line("left_radius_m", o.left_radius_m) +
+                            optional_line("right_radius_m", o.right_radius_m) +
+                            optional_line("wheelbase_m", o.wheelbase_m);
+  return lines.empty() ? "odometry: {}  # the URDF's nominal dimensions\n" : "odometry:\n" + lines;
+}
+
+std::string bumps_block(const BumpChoice& b) {
+  std::string text = fmt::format("bumps:\n  wheel: {}\n  leg: {}\n  count: {}\n  height_m: {}\n", name(b.laid.wheel),
+                                 b.laid.leg, b.laid.count, b.laid.height_m);
+  if (b.fixed.empty()) return text + "  cables: []\n";
+  text += "  cables:\n";
+  for (const Cable& c : b.fixed) {
+    text += fmt::format("    - {{x_m: {}, y_m: {}, height_m: {}, direction_rad: {}, length_m: {}}}\n", c.x_m, c.y_m,
+                        c.height_m, c.direction_rad, c.length_m);
+  }
+  return text;
+}
+
+std::string effects_block(const std::vector<Effect>& effects) {
+  if (effects.empty()) return "effects: {}\n";
+  std::string text = "effects:\n";
+  for (const Effect& effect : effects) {
+    text += fmt::format("  {}:\n", effect.info->name);
+    for (std::size_t i = 0; i < effect.values.size(); ++i) {
+      text += fmt::format("    {}: {}\n", effect.info->parameters[i].name, effect.values[i]);
+    }
+  }
+  return text;
+}
+
+std::string course_block(const Course& c) {
+  return fmt::format(
+      "course:\n  shape: square\n  side_m: {}\n  turn: {}\n  turn_radius_m: {}\n  linear_speed_mps: {}\n"
+      "  angular_speed_radps: {}\n  linear_acceleration_mps2: {}\n  angular_acceleration_radps2: {}\n"
+      "  dwell_s: {}\n  laps: {}\n",
+      c.side_m, c.turn, c.turn_radius_m, c.linear_speed_mps, c.angular_speed_radps, c.linear_acceleration_mps2,
+      c.angular_acceleration_radps2, c.dwell_s, c.laps);
+}
+
+std::string runs_block(const RunChoice& r) {
+  std::string directions;
+  for (const Direction d : r.directions) directions += (directions.empty() ? "" : ", ") + std::string(name(d));
+  return fmt::format("runs:\n  directions: [{}]\n  per_direction: {}\n  start_heading_rad: {}\n", directions,
+                     r.per_direction, r.start_heading_rad);
+}
+
+std::string robot_block(const RobotChoice& r) {
+  return fmt::format(
+      "robot:\n  urdf: {}\n  left_joint: {}\n  right_joint: {}\n  caster_friction: {}\n  torque_limit_nm: {}\n",
+      yaml_string(r.urdf), yaml_string(r.joints.left), yaml_string(r.joints.right), r.caster_friction, r.torque_limit_nm);
+}
+
+}  // namespace
+
+std::string resolved_yaml(const Scenario& s) {
+  std::string text = "format: umbsim-scenario/1\n";
+  text += fmt::format("name: {}\ndescription: {}\nseed: {}\n", yaml_string(s.name), yaml_string(s.description), s.seed);
+  text += robot_block(s.robot);
+  text += fmt::format("encoders:\n  ticks_per_revolution: {}\n  rate_hz: {}\n", s.encoders.ticks_per_revolution,
+                      s.encoders.rate_hz);
+  text += fmt::format("floor:\n  friction: {}\n", s.floor_friction);
+  text += course_block(s.course) + runs_block(s.runs);
+  text += s.bumps.any() ? bumps_block(s.bumps) : "";
+  text += fmt::format("noise:\n  floor_rms_m: {}\n  floor_wavelength_m: {}\n  radius_scatter: {}\n",
+                      s.noise.floor_rms_m, s.noise.floor_wavelength_m, s.noise.radius_scatter);
+  text += fmt::format("truth:\n  kind: {}\n  rate_hz: {}\n  position_sd_m: {}\n  heading_sd_rad: {}\n", s.truth.kind,
+                      s.truth.rate_hz, s.truth.position_sd_m, s.truth.heading_sd_rad);
+  text += odometry_block(s.odometry);
+  text += fmt::format("calibration:\n  method: {}\n  max_passes: {}\n", name(s.calibration.method),
+                      s.calibration.max_passes);
+  text += fmt::format(
+      "physics:\n  step_s: {}\n  fine_step_s: {}\n  gravity_mps2: {}\n  static_sink_m: {}\n  damping_ratio: {}\n",
+      s.physics.step_s, s.physics.fine_step_s, s.physics.gravity_mps2, s.physics.softness.static_sink_m,
+      s.physics.softness.damping_ratio);
+  return text + effects_block(s.effects);
+}
+
+}  // namespace umbsim

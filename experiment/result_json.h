@@ -1,0 +1,25 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "experiment/run.h"
+
+namespace umbsim {
+
+using Json = nlohmann::ordered_json;
+
+Json umbmark_json(const Umbmark& umbmark);
+Json estimate_json(const ErrorEstimate& estimate);
+Json cluster_json(const Cluster& cluster);
+
+/// summary.json (format umbsim-result/1).
+Json summary_json(const ExperimentResult& result);
+
+/// What the report page is made from: the summary, and the runs with their paths thinned out.
+Json report_json(const ExperimentResult& result);
+
+/// provenance.json: version, commit, seed, compiler, Bullet version, host.
+/// `input`: the file or folder that was read.
+Json provenance_json(const std::string& input, std::uint64_t seed);
+
+}  // namespace umbsim

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/calibrate.h"
+#include "experiment/drive_run.h"
+#include "experiment/scenario.h"
+#include "umbmark/figures.h"
+
+namespace umbsim {
+
+/// The squares driven again with calibrated odometry.
+struct CalibrationPass {
+  OdometryParameters odometry;
+  Recording recording;
+  Umbmark umbmark;
+};
+
+/// What is injected, seen from the odometry that the scenario starts with.
+struct InjectedErrors {
+  double e_d = 1;
+  double e_b = 1;
+};
+
+/// One experiment, measured once; tables, JSON and page are written from this record.
+struct ExperimentResult {
+  Scenario scenario;
+  RobotModel nominal;
+  OdometryParameters odometry;
+  Recording recording;                 ///< plain runs, then bumped ones
+  Cluster cw;
+  Cluster ccw;
+  std::optional<Umbmark> umbmark;      ///< both directions were driven
+  std::optional<ExtendedUmbmark> extended;
+  InjectedErrors injected;
+  std::vector<CalibrationPass> passes;
+  PhysicsCost cost;
+  double wall_s = 0;
+};
+
+/// Drives, measures, calibrates, drives again. Runs go in parallel on `jobs` threads (0: all cores); the result does
+/// not depend on their number, but for wall_s. Throws InputError, RunError.
+ExperimentResult run_experiment(const Scenario& scenario, int jobs);
+
+/// E_d and E_b of the simulated robot as built, against the odometry's beliefs.
+InjectedErrors injected_errors(const Rig& rig, const OdometryParameters& odometry);
+
+}  // namespace umbsim

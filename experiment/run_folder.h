@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "experiment/run.h"
+
+namespace umbsim {
+
+/// Throws InputError if `folder` already holds a result and `force` is false, or cannot be a result folder.
+void check_output_folder(const std::filesystem::path& folder, bool force);
+
+/// Writes a folder whole or not at all: `fill` writes into a folder beside it, which is renamed when complete.
+/// Throws RunError if that fails; nothing is left behind then, and an older result stays as it was.
+void write_folder(const std::filesystem::path& folder, bool force,
+                  const std::function<void(const std::filesystem::path&)>& fill);
+
+/// The run folder of an experiment: a recording, scenario.resolved.yaml, provenance.json, summary.json, calibration.yaml
+/// where it calibrated (with the runs that prove it in `calibrated/`, a recording too), and `page` as report.html.
+void write_run_folder(const ExperimentResult& result, const std::string& page, const std::filesystem::path& folder,
+                      bool force);
+
+}  // namespace umbsim

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/pose2.h"
+
+namespace umbsim {
+
+enum class Direction { cw, ccw };
+inline const char* name(Direction direction) { return direction == Direction::cw ? "cw" : "ccw"; }
+
+/// A square course (Borenstein & Feng 1995): four straight legs, four turns.
+struct Course {
+  double side_m = 4;                        ///< > 0
+  std::string turn = "in_place";            ///< in_place: about the robot's centre; arc: rolling, on `turn_radius_m`
+  double turn_radius_m = 0.4;               ///< arc only, < side_m / 2
+  double linear_speed_mps = 0.2;
+  double angular_speed_radps = 0.7;
+  double linear_acceleration_mps2 = 0.25;
+  double angular_acceleration_radps2 = 1.5;
+  double dwell_s = 0.2;                     ///< standstill after every leg and turn
+  int laps = 1;
+};
+
+/// One leg or turn from standstill to standstill.
+struct Segment {
+  enum class Kind { leg, turn };
+  Kind kind = Kind::leg;
+  int leg = 1;                ///< 1..4 * laps; a turn belongs to the leg before it
+  double length_m = 0;        ///< along the path; 0 when turning in place
+  double angle_rad = 0;       ///< ccw positive
+  double duration_s = 0;      ///< motion, without the dwell
+  double start_s = 0;
+  Pose2 X_SB_start;           ///< in the frame of the course's start
+};
+
+/// Reference of the course at one moment, in the frame of the start.
+struct Reference {
+  Pose2 X_SB;
+  int segment = 0;
+};
+
+/// The legs and turns with trapezoidal speed profiles. An arc course has legs of side - 2 radius, begins at the start
+/// of the first of them, and turns on quarter circles.
+class Plan {
+ public:
+  Plan(const Course& course, Direction direction);
+
+  const std::vector<Segment>& segments() const { return segments_; }
+  double duration_s() const { return duration_s_; }  ///< with dwells
+  /// `segment_hint`: the segment of the last call, so that the search is short.
+  Reference at(double time_s, int segment_hint = 0) const;
+
+ private:
+  Course course_;
+  std::vector<Segment> segments_;
+  double duration_s_ = 0;
+};
+
+/// Follows a plan on the robot's own odometry, as an experimenter's robot does: it never sees the truth.
+struct WheelSpeeds {
+  double left_radps = 0;
+  double right_radps = 0;
+};
+
+/// What the driver believes of the robot, to turn speeds into wheel speeds: the odometry's parameters.
+struct DriveGeometry {
+  double left_radius_m = 0;
+  double right_radius_m = 0;
+  double wheelbase_m = 0;
+};
+
+/// Speeds over the control period that begins at `time_s`: the reference's own motion, and a correction of the pose
+/// error (Kanayama et al. 1990) that fades out in about a quarter of a second. All poses in the frame of the start.
+WheelSpeeds drive(const Plan& plan, double time_s, double period_s, const Pose2& X_SB, const DriveGeometry& geometry,
+                  int segment_hint);
+
+}  // namespace umbsim
