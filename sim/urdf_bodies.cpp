@@ -73,6 +73,10 @@ class BodyReader {
     if (body.continuous && !(axis.norm() > 0)) source_.fail_at_joint(joint.name, "its axis has no direction (0 0 0)");
     if (axis.norm() > 0) body.axis = axis.normalized();
     if (joint.limits) body.effort_limit_nm = joint.limits->effort;
+    if (!(body.effort_limit_nm >= 0)) {
+      source_.fail_at_joint(joint.name,
+                            fmt::format("limit effort is {:g}; it must not be negative", body.effort_limit_nm));
+    }
     bodies_.push_back(body);
     return int(bodies_.size()) - 1;
   }

@@ -106,7 +106,9 @@ std::vector<Pair> collinear_pairs(const std::vector<Body>& bodies, const std::ve
     source.fail_at_joint(bodies[found.faults[0].first].joint, "cannot be a drive wheel: " + found.faults[0].second);
   }
   if (found.on_floor.empty()) {
-    source.fail("no drive wheels: no continuous joint with a horizontal axis; a differential drive has two");
+    source.fail(
+        "no drive wheels: no continuous joint with a horizontal axis (revolute ones do not count); a differential "
+        "drive has two");
   }
   source.fail_at_joint(bodies[found.on_floor[0].body].joint,
                        "the only continuous joint with a wheel on the floor; a differential drive has two");

@@ -11,25 +11,44 @@
 #include <fstream>
 #include <iterator>
 #include <mutex>
+#include <regex>
 #include <string_view>
+#include <utility>
 
 #include "core/error.h"
 
 namespace umbsim {
 namespace {
 
-// Takes urdfdom's messages off the terminal and keeps the errors. The handler is global to the process: use under lock.
+// Takes urdfdom's messages off the terminal and keeps the errors: urdfdom drops an element that it cannot read, says so
+// and goes on. A <visual> is no matter. The handler is global to the process: use under lock.
 class ComplaintCollector : public console_bridge::OutputHandler {
  public:
   ComplaintCollector() { console_bridge::useOutputHandler(this); }
   ~ComplaintCollector() override { console_bridge::restorePreviousOutputHandler(); }
 
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) text_ += (text_.empty() ? "" : "; ") + text;
+    if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR) return;
+    if (text.starts_with("Could not parse visual")) {
+      cause_.clear();
+      return;
+    }
+    cause_ += (cause_.empty() ? "" : "; ") + text;
+    if (text.starts_with("Could not parse")) settle();
   }
-  const std::string& text() const { return text_; }
+
+  const std::string& text() {
+    settle();
+    return text_;
+  }
 
  private:
+  void settle() {
+    if (!cause_.empty()) text_ += (text_.empty() ? "" : "; ") + cause_;
+    cause_.clear();
+  }
+
+  std::string cause_;  // not yet known of which element
   std::string text_;
 };
 
@@ -97,21 +116,34 @@ std::map<std::string, int> lines_of(const tinyxml2::XMLElement& robot, const cha
   return lines;
 }
 
-std::shared_ptr<const urdf::ModelInterface> parse(const std::string& text, const std::string& file) {
+int line_in(const std::map<std::string, int>& lines, const std::string& name) {
+  const auto found = lines.find(name);
+  return found == lines.end() ? 0 : found->second;
+}
+
+// The line of the first element that urdfdom's text names, as in "Could not parse collision element for Link [caster]".
+int line_of_complaint(const std::string& complaint, const std::map<std::string, int>& links,
+                      const std::map<std::string, int>& joints) {
+  std::smatch match;
+  if (!std::regex_search(complaint, match, std::regex(R"(([Ll]ink|[Jj]oint) \[([^\]]*)\])"))) return 0;
+  return line_in(std::tolower(match[1].str()[0]) == 'l' ? links : joints, match[2]);
+}
+
+struct Parsed {
+  std::shared_ptr<const urdf::ModelInterface> model;
+  std::string complaint;
+};
+
+Parsed parse(const std::string& text) {
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
   ComplaintCollector complaints;
   try {
-    if (auto model = urdf::parseURDF(text)) return model;
+    auto model = urdf::parseURDF(text);
+    return {model, complaints.text()};
   } catch (const std::exception& error) {
-    throw InputError({file}, fmt::format("not a valid URDF: {}", error.what()));
+    return {nullptr, error.what()};
   }
-  throw InputError({file}, fmt::format("not a valid URDF: {}", complaints.text()));
-}
-
-int line_in(const std::map<std::string, int>& lines, const std::string& name) {
-  const auto found = lines.find(name);
-  return found == lines.end() ? 0 : found->second;
 }
 
 }  // namespace
@@ -124,7 +156,12 @@ UrdfSource::UrdfSource(std::string file) : file_(std::move(file)) {
   refuse_xacro(robot, file_);
   link_lines_ = lines_of(robot, "link");
   joint_lines_ = lines_of(robot, "joint");
-  model_ = parse(text, file_);
+  const Parsed parsed = parse(text);
+  if (!parsed.model || !parsed.complaint.empty()) {
+    throw InputError({file_, line_of_complaint(parsed.complaint, link_lines_, joint_lines_)},
+                     fmt::format("not a valid URDF: {}", parsed.complaint));
+  }
+  model_ = parsed.model;
 }
 
 std::string UrdfSource::file_name() const { return std::filesystem::path(file_).filename().string(); }

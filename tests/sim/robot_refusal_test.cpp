@@ -58,6 +58,21 @@ TEST(RefusedFiles, WhatUrdfdomComplainsOf) {
   expect_says(refusal(with(kRobot, "xyz=\"0.3 0 -0.07\"", "xyz=\"0.3 0\"")), {"mini.urdf", "jb"});
 }
 
+TEST(RefusedFiles, NumbersThatUrdfdomWouldDrop) {
+  expect_says(refusal(with(kRobot, "mass value=\"10\"", "mass value=\"nan\"")), {"mini.urdf:2:", "nan", "hull"});
+  expect_says(refusal(with(kRobot, "ixy=\"0.01\"", "")), {"mini.urdf:2:", "ixy", "hull"});
+  expect_says(refusal(with(kRobot, "radius=\"0.03\"", "radius=\"inf\"")), {"mini.urdf:18:", "inf", "ball"});
+  expect_says(refusal(with(kRobot, "<sphere radius=\"0.03\"/>", "<capsule/>")), {"mini.urdf:18:", "capsule", "ball"});
+  expect_says(
+      refusal(with(kRobot, "<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 1 0\"/><limit effort=\"-1\" velocity=\"1\"/>")),
+      {"mini.urdf:10:", "joint 'jl' (link 'wheel_l')", "effort is -1"});
+}
+
+TEST(AcceptedFiles, VisualsAreNoMatter) {
+  const std::string visual = "</inertial><visual><geometry><capsule/></geometry></visual>\n";
+  EXPECT_EQ(testing::loaded(with(kRobot, "</inertial>\n", visual)).casters.size(), 1u);
+}
+
 TEST(RefusedFiles, BrokenTree) {
   expect_says(refusal(plus(kRobot, "<link name=\"lost\"/>")), {"mini.urdf", "lost", "root"});
   const std::string again =
