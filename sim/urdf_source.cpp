@@ -11,7 +11,6 @@
 #include <fstream>
 #include <iterator>
 #include <mutex>
-#include <regex>
 #include <string_view>
 #include <utility>
 
@@ -121,12 +120,12 @@ int line_in(const std::map<std::string, int>& lines, const std::string& name) {
   return found == lines.end() ? 0 : found->second;
 }
 
-// The line of the first element that urdfdom's text names, as in "Could not parse collision element for Link [caster]".
-int line_of_complaint(const std::string& complaint, const std::map<std::string, int>& links,
-                      const std::map<std::string, int>& joints) {
-  std::smatch match;
-  if (!std::regex_search(complaint, match, std::regex(R"(([Ll]ink|[Jj]oint) \[([^\]]*)\])"))) return 0;
-  return line_in(std::tolower(match[1].str()[0]) == 'l' ? links : joints, match[2]);
+// The name in "... for Link [caster]", or empty.
+std::string named_after(const std::string& complaint, std::string_view tag) {
+  const auto at = complaint.find(tag);
+  if (at == complaint.npos) return {};
+  const auto from = at + tag.size();
+  return complaint.substr(from, complaint.find(']', from) - from);
 }
 
 struct Parsed {
@@ -157,11 +156,17 @@ UrdfSource::UrdfSource(std::string file) : file_(std::move(file)) {
   link_lines_ = lines_of(robot, "link");
   joint_lines_ = lines_of(robot, "joint");
   const Parsed parsed = parse(text);
-  if (!parsed.model || !parsed.complaint.empty()) {
-    throw InputError({file_, line_of_complaint(parsed.complaint, link_lines_, joint_lines_)},
-                     fmt::format("not a valid URDF: {}", parsed.complaint));
-  }
   model_ = parsed.model;
+  if (!model_ || !parsed.complaint.empty()) fail_with(parsed.complaint);
+}
+
+void UrdfSource::fail_with(const std::string& complaint) const {
+  const std::string what = "not a valid URDF: " + complaint;
+  const std::string link = named_after(complaint, "Link [");
+  if (model_ && model_->getLink(link)) fail_at_link(link, what);
+  const int line =
+      line_in(link.empty() ? joint_lines_ : link_lines_, link.empty() ? named_after(complaint, "oint [") : link);
+  throw InputError({file_, line}, what);
 }
 
 std::string UrdfSource::file_name() const { return std::filesystem::path(file_).filename().string(); }

@@ -29,6 +29,9 @@ class UrdfSource {
   [[noreturn]] void fail_at_joint(const std::string& joint, const std::string& what) const;
 
  private:
+  /// Throws urdfdom's words with the line of the element they name.
+  [[noreturn]] void fail_with(const std::string& complaint) const;
+
   std::string file_;
   std::shared_ptr<const urdf::ModelInterface> model_;
   std::map<std::string, int> link_lines_;

@@ -22,7 +22,7 @@ struct Softness {
 };
 
 struct PhysicsOptions {
-  double step_s = 0.010;       ///< longest time step
+  double step_s = 0.020;       ///< longest time step
   double fine_step_s = 0.001;  ///< longest time step while a wheel is on or near a cable
   double gravity_mps2 = 9.81;
   Softness softness;

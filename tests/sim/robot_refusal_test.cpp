@@ -55,13 +55,14 @@ TEST(RefusedFiles, WhatUrdfdomComplainsOf) {
   expect_says(refusal(plus(kRobot, "<link name=\"hull\"/>")), {"mini.urdf", "hull", "not unique"});
   expect_says(refusal(with(kRobot, "<child link=\"ball\"/>", "<child link=\"bell\"/>")), {"mini.urdf", "bell", "jb"});
   expect_says(refusal(with(kRobot, "mass value=\"10\"", "mass value=\"ten\"")), {"mini.urdf", "hull"});
-  expect_says(refusal(with(kRobot, "xyz=\"0.3 0 -0.07\"", "xyz=\"0.3 0\"")), {"mini.urdf", "jb"});
+  expect_says(refusal(with(kRobot, "xyz=\"0.3 0 -0.07\"", "xyz=\"0.3 0\"")), {"mini.urdf:19:", "jb"});
 }
 
 TEST(RefusedFiles, NumbersThatUrdfdomWouldDrop) {
-  expect_says(refusal(with(kRobot, "mass value=\"10\"", "mass value=\"nan\"")), {"mini.urdf:2:", "nan", "hull"});
+  expect_says(refusal(with(kRobot, "mass value=\"10\"", "mass value=\"nan\"")), {"mini.urdf:2:", "nan", "link 'hull'"});
   expect_says(refusal(with(kRobot, "ixy=\"0.01\"", "")), {"mini.urdf:2:", "ixy", "hull"});
-  expect_says(refusal(with(kRobot, "radius=\"0.03\"", "radius=\"inf\"")), {"mini.urdf:18:", "inf", "ball"});
+  expect_says(refusal(with(kRobot, "radius=\"0.03\"", "radius=\"inf\"")),
+              {"mini.urdf:18:", "inf", "link 'ball' (joint 'jb')"});
   expect_says(refusal(with(kRobot, "<sphere radius=\"0.03\"/>", "<capsule/>")), {"mini.urdf:18:", "capsule", "ball"});
   expect_says(
       refusal(with(kRobot, "<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 1 0\"/><limit effort=\"-1\" velocity=\"1\"/>")),
