@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "core/error.h"
+#include "core/yaml_reader.h"
 #include "experiment/build_info.h"
 
 namespace {
@@ -19,6 +20,14 @@ constexpr void (*kCommands[])(CLI::App&) = {
     umbsim::add_calibrate_command,
     umbsim::add_effects_command,
 };
+
+std::vector<std::string> subcommands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
 
 }  // namespace
 
@@ -36,6 +45,12 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     return 0;
   } catch (const CLI::ParseError& e) {
+    const std::vector<std::string> extra = app.remaining();
+    if (app.get_subcommands().empty() && !extra.empty() && extra.front().rfind('-', 0) != 0) {
+      fmt::print(stderr, "umbsim: unknown subcommand '{}'; {}\n", extra.front(),
+                 umbsim::list_choices(extra.front(), subcommands(app)));
+      return kBadInput;
+    }
     return app.exit(e) == 0 ? 0 : kBadInput;
   } catch (const umbsim::InputError& e) {
     fmt::print(stderr, "umbsim: {}\n", e.what());

@@ -23,9 +23,10 @@ class InputError : public std::runtime_error {
  private:
   static std::string prefix(const SourceMark& mark) {
     std::string text = mark.file;
-    if (mark.line > 0) text += ":" + std::to_string(mark.line);
-    if (mark.line > 0 && mark.column > 0) text += ":" + std::to_string(mark.column);
-    return text.empty() ? text : text + ": ";
+    if (mark.line > 0) text.append(1, ':').append(std::to_string(mark.line));
+    if (mark.line > 0 && mark.column > 0) text.append(1, ':').append(std::to_string(mark.column));
+    if (!text.empty()) text.append(": ");
+    return text;
   }
 };
 

@@ -74,6 +74,9 @@ class Recorder {
     run.has_commands = true;
     if (scenario.runs.start_heading_rad != 0) run.start_heading_rad = scenario.runs.start_heading_rad;
     if (spec.bumped && scenario.bumps.laid.count > 0) run.inner_wheel_bumps = scenario.bumps.laid.count;
+    if (spec.bumped) {
+      for (const Cable& cable : scenario.bumps.fixed) run.bumps.push_back({cable.x_m, cable.y_m, cable.height_m});
+    }
     stride_ = std::max(1, int(std::lround(scenario.encoders.rate_hz / truth_.rate_hz)));
   }
 

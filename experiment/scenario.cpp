@@ -168,6 +168,18 @@ PhysicsOptions read_physics(const YamlValue& value) {
   return p;
 }
 
+// The same value without its place in a text: errors about it then name the key, and no line of the scenario file.
+YAML::Node without_marks(const YAML::Node& node) {
+  YAML::Node copy(node.Type());
+  if (node.IsScalar()) copy = node.Scalar();
+  for (const auto& entry : node) {
+    if (node.IsMap()) copy[entry.first.Scalar()] = without_marks(entry.second);
+    else copy.push_back(without_marks(entry));
+  }
+  copy.SetTag(node.Tag());
+  return copy;
+}
+
 // Puts the value of `a.b.c=value` into the document.
 void set_value(const YamlValue& document, const std::string& setting) {
   const std::size_t equals = setting.find('=');
@@ -186,11 +198,9 @@ void set_value(const YamlValue& document, const std::string& setting) {
     node.reset(child);
     begin = dot + 1;
   }
-  try {
-    node = YAML::Load(setting.substr(equals + 1));
-  } catch (const YAML::Exception& e) {
-    throw InputError("--set " + setting + ": the value is not YAML: " + e.msg);
-  }
+  const std::string text = setting.substr(equals + 1);
+  if (text.empty()) throw InputError("--set " + setting + ": a value is missing after the =");
+  node = without_marks(YamlValue::parse(text, "--set " + setting).node());
 }
 
 std::string robots_directory() {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 namespace umbsim {
@@ -17,6 +16,32 @@ constexpr double kConeSlack = 1e-12;       // relative: a stick impulse exactly 
 constexpr int kNewtonIterations = 40;
 constexpr int kHalvings = 6;
 constexpr int kSweeps = 3000;
+
+constexpr int kUsualRows = 9;  // two wheels with friction, a ball without, two motors
+
+// x = -A^-1 b by Cholesky, A = L L^T. N: number of rows at compile time where it is the usual one.
+template <int N>
+void solve_spd(const ContactProblem& p, RowVector& x) {
+  const int n = N == Eigen::Dynamic ? int(p.b.size()) : N;
+  double L[kMaxRows][kMaxRows];
+  double y[kMaxRows];
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      double sum = p.A(i, j);
+      for (int k = 0; k < j; ++k) sum -= L[i][k] * L[j][k];
+      L[i][j] = i == j ? 1 / std::sqrt(sum) : sum * L[j][j];  // the diagonal holds 1 / L_ii
+    }
+    double sum = -p.b[i];
+    for (int k = 0; k < i; ++k) sum -= L[i][k] * y[k];
+    y[i] = sum * L[i][i];
+  }
+  x.resize(n);
+  for (int i = n - 1; i >= 0; --i) {
+    double sum = y[i];
+    for (int k = i + 1; k < n; ++k) sum -= L[k][i] * x[k];
+    x[i] = sum * L[i][i];
+  }
+}
 
 double scale(const RowVector& x) { return 1e-9 + x.cwiseAbs().maxCoeff(); }
 
@@ -162,8 +187,8 @@ SolveReport solve_contacts(const ContactProblem& problem, RowVector& x) {
   const int rows = int(problem.b.size());
   if (rows == 0) return report;
   const RowVector warm = x.size() == rows ? x : RowVector(RowVector::Zero(rows));
-  const Eigen::LLT<RowMatrix> cholesky(problem.A);
-  x = cholesky.solve(-problem.b);
+  if (rows == kUsualRows) solve_spd<kUsualRows>(problem, x);
+  else solve_spd<Eigen::Dynamic>(problem, x);
   if (all_stick_holds(problem, x)) return report;
 
   report.outcome = SolveOutcome::newton;

@@ -13,27 +13,25 @@ btVector3 to_bullet(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 btQuaternion to_bullet(const Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
-Matrix3d skew(const Vector3d& v) {
-  Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
+// sin(x/2)/x, cos(x/2), (1-cos x)/x^2 and (x - sin x)/x^3 of x = |turn|, from x^2.
+struct TurnSeries {
+  double half_sine, half_cosine, a, b;
 
-Matrix3d exponential(const Vector3d& rotation_vector) {
-  const double angle = rotation_vector.norm();
-  if (angle < 1e-12) return Matrix3d::Identity() + skew(rotation_vector);
-  return Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix();
-}
-
-// Integral of exp(s [w]) over s in [0, 1]: what constant twists do to positions (the left Jacobian of SO(3)).
-Matrix3d left_jacobian(const Vector3d& w) {
-  const double angle2 = w.squaredNorm();
-  const Matrix3d W = skew(w);
-  if (angle2 < 1e-8) return Matrix3d::Identity() + (0.5 - angle2 / 24) * W + (1.0 / 6 - angle2 / 120) * W * W;
-  const double angle = std::sqrt(angle2);
-  return Matrix3d::Identity() + (1 - std::cos(angle)) / angle2 * W +
-         (angle - std::sin(angle)) / (angle2 * angle) * W * W;
-}
+  explicit TurnSeries(double x2) {
+    if (x2 < 0.01) {  // the next terms are below 1e-16
+      half_sine = 0.5 * (1 - x2 / 24 * (1 - x2 / 80 * (1 - x2 / 168)));
+      half_cosine = 1 - x2 / 8 * (1 - x2 / 48 * (1 - x2 / 120 * (1 - x2 / 224)));
+      a = 0.5 * (1 - x2 / 12 * (1 - x2 / 30 * (1 - x2 / 56)));
+      b = 1.0 / 6 * (1 - x2 / 20 * (1 - x2 / 42 * (1 - x2 / 72)));
+      return;
+    }
+    const double x = std::sqrt(x2);
+    half_sine = std::sin(x / 2) / x;
+    half_cosine = std::cos(x / 2);
+    a = (1 - std::cos(x)) / x2;
+    b = (x - std::sin(x)) / (x2 * x);
+  }
+};
 
 // A right-handed frame whose y axis is `axis`.
 Matrix3d frame_about(const Vector3d& axis) {
@@ -72,7 +70,7 @@ struct MultiBody::Part {
   }
 };
 
-MultiBody::MultiBody(const RobotModel& robot, double gravity_mps2) : gravity_mps2_(gravity_mps2) {
+MultiBody::MultiBody(const RobotModel& robot, double gravity_mps2) : robot_(robot), gravity_mps2_(gravity_mps2) {
   int links = 2;
   for (const Caster& caster : robot.casters) links += caster.swivels ? 2 : 0;
   constant_mass_ = links == 2;
@@ -91,7 +89,9 @@ MultiBody::MultiBody(const RobotModel& robot, double gravity_mps2) : gravity_mps
   body_->addBaseForce(btVector3(0, 0, -gravity_mps2 * base.mass_kg));
   for (int i = 0; i < links; ++i) body_->addLinkForce(i, btVector3(0, 0, -gravity_mps2 * link_mass_[i]));
   inverse_mass_.resize(dofs(), dofs());
+  u_ = DofVector::Zero(dofs());
   set_pose(Quaterniond::Identity(), Vector3d::Zero());
+  if (constant_mass_) compute_inverse_mass();
 }
 
 void MultiBody::build_wheels(const RobotModel& robot) {
@@ -135,13 +135,28 @@ void MultiBody::set_pose(const Quaterniond& q_WB, const Vector3d& p_WB) {
   q_WB_ = q_WB.normalized();
   R_WB_ = q_WB_.toRotationMatrix();
   p_WB_ = p_WB;
-  body_->setBasePos(to_bullet(p_WB_ + R_WB_ * com_B_));
-  body_->setWorldToBaseRot(to_bullet((q_WB_ * Quaterniond(R_BK_)).conjugate()));
 }
 
-void MultiBody::set_joint_angle(int joint, double angle_rad) { body_->setJointPos(joint, angle_rad); }
+void MultiBody::to_bullet_state() {
+  body_->setBasePos(to_bullet(p_WB_ + R_WB_ * com_B_));
+  body_->setWorldToBaseRot(to_bullet((q_WB_ * Quaterniond(R_BK_)).conjugate()));
+  body_->setBaseOmega(to_bullet(R_WB_ * u_.head<3>()));
+  body_->setBaseVel(to_bullet(R_WB_ * u_.segment<3>(3)));
+  for (int j = 0; j < int(joints_.size()); ++j) {
+    body_->setJointPos(j, angle_rad_[j]);
+    body_->setJointVel(j, u_[6 + j]);
+  }
+}
 
-DofVector MultiBody::velocity() const {
+DofVector MultiBody::free_velocity(double step_s) {
+  if (!constant_mass_) return free_velocity_articulated(step_s);
+  return u_ + step_s * inverse_mass_.lazyProduct(gyroscopic_and_weight());
+}
+
+DofVector MultiBody::free_velocity_articulated(double step_s) {
+  to_bullet_state();
+  body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(step_s, scratch_r_, scratch_v_, scratch_m_, false, false,
+                                                              false);
   DofVector u(dofs());
   u.head<3>() = R_WB_.transpose() * to_eigen(body_->getBaseOmega());
   u.segment<3>(3) = R_WB_.transpose() * to_eigen(body_->getBaseVel());
@@ -149,26 +164,36 @@ DofVector MultiBody::velocity() const {
   return u;
 }
 
-void MultiBody::set_velocity(const DofVector& u) {
-  body_->setBaseOmega(to_bullet(R_WB_ * u.head<3>()));
-  body_->setBaseVel(to_bullet(R_WB_ * u.segment<3>(3)));
-  for (int j = 0; j < int(joints_.size()); ++j) body_->setJointVel(j, u[6 + j]);
-}
-
-DofVector MultiBody::free_velocity(double step_s) {
-  body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(step_s, scratch_r_, scratch_v_, scratch_m_, false, false,
-                                                              false);
-  return velocity();
+// Generalised forces at the base's centre of mass, base frame: weight, and the inertia forces of a turning base with
+// spinning wheels, -w x (I w) and -m w x (w x r). A body of revolution feels none about its own axis.
+DofVector MultiBody::gyroscopic_and_weight() const {
+  const Vector3d w = u_.head<3>();
+  const Vector3d gravity = -gravity_mps2_ * R_WB_.row(2).transpose();
+  Vector3d torque = -w.cross(robot_.base.inertia_kgm2 * w);
+  Vector3d force = robot_.base.mass_kg * gravity;
+  for (int i = 0; i < 2; ++i) {
+    const Wheel& wheel = robot_.wheels[i];
+    const Vector3d r = wheel.centre_m - com_B_;
+    const Vector3d pull = wheel.mass_kg * (gravity - w.cross(w.cross(r)));
+    const double spin = wheel.spin_inertia_kgm2 * u_[6 + i] +
+                        (wheel.spin_inertia_kgm2 - wheel.transverse_inertia_kgm2) * wheel.axis.dot(w);
+    force += pull;
+    torque += r.cross(pull) - w.cross(wheel.axis) * spin;
+  }
+  DofVector f = DofVector::Zero(dofs());
+  f.head<3>() = torque;
+  f.segment<3>(3) = force;
+  return f;
 }
 
 const DofMatrix& MultiBody::inverse_mass() {
-  if (!constant_mass_ || !have_inverse_mass_) compute_inverse_mass();
-  have_inverse_mass_ = true;
+  if (!constant_mass_) compute_inverse_mass();
   return inverse_mass_;
 }
 
-// Column by column from Bullet's unit responses; needs a preceding free_velocity at this configuration.
+// Column by column from Bullet's unit responses, which need its articulated-body pass at this configuration.
 void MultiBody::compute_inverse_mass() {
+  if (constant_mass_) free_velocity_articulated(0);
   double force[kMaxDofs], response[kMaxDofs];
   for (int column = 0; column < dofs(); ++column) {
     std::fill(force, force + dofs(), 0.0);
@@ -186,12 +211,17 @@ void MultiBody::compute_inverse_mass() {
   inverse_mass_ = (0.5 * (inverse_mass_ + inverse_mass_.transpose())).eval();
 }
 
-void MultiBody::integrate(const DofVector& u, double step_s) {
-  const Vector3d turn = u.head<3>() * step_s;
-  const Vector3d origin_velocity = u.segment<3>(3) - u.head<3>().cross(com_B_);
-  const Vector3d p_WB = p_WB_ + R_WB_ * (left_jacobian(turn) * origin_velocity) * step_s;
-  for (int j = 0; j < int(joints_.size()); ++j) set_joint_angle(j, joint_angle(j) + step_s * u[6 + j]);
-  set_pose(Quaterniond(Matrix3d(R_WB_ * exponential(turn))), p_WB);
+void MultiBody::integrate(double step_s) {
+  const Vector3d turn = u_.head<3>() * step_s;
+  const TurnSeries series(turn.squaredNorm());
+  const Vector3d v = u_.segment<3>(3) - u_.head<3>().cross(com_B_);  // of the base frame's origin
+  const Vector3d w_v = turn.cross(v);
+  p_WB_ += R_WB_ * (v + series.a * w_v + series.b * turn.cross(w_v)) * step_s;
+  const Vector3d half = series.half_sine * turn;
+  const Quaterniond q_turn(series.half_cosine, half.x(), half.y(), half.z());
+  set_pose(q_WB_ * q_turn, p_WB_);
+  u_.segment<3>(3) = q_turn.conjugate() * Vector3d(u_.segment<3>(3));
+  for (int j = 0; j < int(joints_.size()); ++j) angle_rad_[j] += step_s * u_[6 + j];
 }
 
 Joint MultiBody::current(int joint) const {
@@ -215,7 +245,8 @@ DofVector MultiBody::jacobian(int joint, const Vector3d& point_m, const Vector3d
   return row;
 }
 
-double MultiBody::energy() const {
+double MultiBody::energy() {
+  to_bullet_state();
   btAlignedObjectArray<btVector3> omega, velocity;
   omega.resize(body_->getNumLinks() + 1);
   velocity.resize(body_->getNumLinks() + 1);

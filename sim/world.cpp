@@ -81,6 +81,7 @@ struct World::State {
   // Rows of the current step.
   ContactProblem problem;
   DofVector row[kMaxRows];
+  DofVector response[kMaxRows];   // M^-1 times the row
   double compliance[kMaxRows]{};  // velocity per impulse, added to the diagonal
   int rows = 0;
   int contact_support[8]{};
@@ -103,6 +104,8 @@ struct World::State {
   void add_contact(int support, const RollingShape& round, const NearestPoint& nearest, double step_s,
                    const DofVector& u);
   void add_motor(int wheel, double target_radps, double step_s, const DofVector& u);
+  template <int N>
+  void assemble(const DofMatrix& M_inverse, int dofs);
   void solve(double step_s, DofVector& u);
   void place_on_floor(const Pose2& X_WB);
   void soften();
@@ -121,7 +124,7 @@ void World::State::step(double step_s, const std::array<double, 2>& target_radps
   for (int i = 0; i < 2; ++i) add_motor(i, target_radps[i], step_s, u);
   solve(step_s, u);
   body.set_velocity(u);
-  body.integrate(u, step_s);
+  body.integrate(step_s);
   track_heading();
   ++cost.steps;
   cost.simulated_s += step_s;
@@ -187,16 +190,27 @@ void World::State::add_motor(int wheel, double target_radps, double step_s, cons
   ++rows;
 }
 
-void World::State::solve(double step_s, DofVector& u) {
-  const DofMatrix& M_inverse = body.inverse_mass();
-  DofVector response[kMaxRows];
-  for (int i = 0; i < rows; ++i) response[i] = M_inverse * row[i];
+// A = J M^-1 J^T + compliance. N: number of degrees of freedom at compile time where it is the usual one.
+template <int N>
+void World::State::assemble(const DofMatrix& M_inverse, int dofs) {
+  using Vector = Eigen::Matrix<double, N, 1, 0, N == Eigen::Dynamic ? kMaxDofs : N, 1>;
+  const auto at = [dofs](DofVector& v) { return Eigen::Map<Vector>(v.data(), dofs); };
+  const Eigen::Map<const Eigen::Matrix<double, N, N>> M(M_inverse.data(), dofs, dofs);
   problem.A.resize(rows, rows);
-  problem.b.conservativeResize(rows);
   for (int i = 0; i < rows; ++i) {
-    for (int j = 0; j <= i; ++j) problem.A(i, j) = problem.A(j, i) = row[i].dot(response[j]);
+    response[i].resize(dofs);
+    at(response[i]).noalias() = M.lazyProduct(at(row[i]));
+    for (int j = 0; j <= i; ++j) problem.A(i, j) = problem.A(j, i) = at(row[j]).dot(at(response[i]));
     problem.A(i, i) += compliance[i];
   }
+}
+
+void World::State::solve(double step_s, DofVector& u) {
+  constexpr int kUsual = 8;  // base and two wheels
+  const DofMatrix& M_inverse = body.inverse_mass();
+  if (body.dofs() == kUsual) assemble<kUsual>(M_inverse, kUsual);
+  else assemble<Eigen::Dynamic>(M_inverse, body.dofs());
+  problem.b.conservativeResize(rows);
   const SolveReport report = solve_contacts(problem, impulses);
   cost.newton_steps += report.outcome != SolveOutcome::stick;
   cost.solver_fallbacks += report.outcome == SolveOutcome::fallback;

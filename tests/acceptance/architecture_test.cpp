@@ -1,0 +1,162 @@
+// The house plan (docs/architecture.md): which folder may include which, who sees Bullet, what stands at the top.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+/// A folder may include itself and these.
+const std::map<std::string, Names> kArrows = {
+    {"core", {}},
+    {"sim", {"core"}},
+    {"odometry", {"core"}},
+    {"recording", {"core"}},
+    {"report", {"core"}},
+    {"effects", {"sim", "odometry", "core"}},
+    {"umbmark", {"recording", "odometry", "core"}},
+    {"calibration", {"umbmark", "recording", "odometry", "core"}},
+    {"gap", {"calibration", "recording", "odometry", "effects", "core"}},
+    {"experiment", {"effects", "calibration", "umbmark", "recording", "odometry", "sim", "core"}},
+    {"cli",
+     {"experiment", "gap", "calibration", "report", "umbmark", "effects", "recording", "odometry", "sim", "core"}},
+};
+/// Of effects/, gap/ may see the table only.
+const Names kGapSeesOfEffects = {"effects/catalogue.h"};
+
+/// Where Bullet may be seen.
+const Names kSeesBullet = {"sim", "tests/sim", "bench"};
+
+const Names kTopLevel = {"README.md", "CHANGELOG.md", "umbsim",      "test",   "CMakeLists.txt", "CMakePresets.json",
+                         "scenarios", "robots",       "core",        "sim",    "odometry",       "effects",
+                         "umbmark",   "recording",    "calibration", "gap",    "experiment",     "report",
+                         "cli",       "tests",        "bench",       "docs",   "cmake",          "results",
+                         "slurm",     "LICENSE",      "CONTRIBUTING.md",       "CMakeUserPresets.json", "build"};
+const Names kMustStand = {"README.md", "CHANGELOG.md", "umbsim", "test", "CMakeLists.txt", "CMakePresets.json"};
+
+const fs::path kRoot = UMBSIM_SOURCE_DIR;
+
+struct Include {
+  std::string file;    ///< relative to the root
+  std::string folder;  ///< first part of `file`; the first two below tests/
+  int line = 0;
+  std::string name;
+  bool quoted = false;
+};
+
+std::string folder_of(const fs::path& file) {
+  auto part = file.begin();
+  const std::string first = part->string();
+  return first == "tests" && ++part != file.end() ? first + "/" + part->string() : first;
+}
+
+bool is_source(const fs::path& file) {
+  const std::string extension = file.extension().string();
+  return Names{".h", ".cpp", ".hpp", ".cc", ".in"}.count(extension) > 0;
+}
+
+void add_includes(const fs::path& file, std::vector<Include>& includes) {
+  static const std::regex pattern(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
+  std::ifstream stream(kRoot / file);
+  std::string text;
+  for (int line = 1; std::getline(stream, text); ++line) {
+    std::smatch match;
+    if (!std::regex_search(text, match, pattern)) continue;
+    includes.push_back({file.string(), folder_of(file), line, match[2], match[1] == "\""});
+  }
+}
+
+const std::vector<Include>& all_includes() {
+  static const std::vector<Include> includes = [] {
+    std::vector<Include> found;
+    Names folders = {"tests", "bench"};
+    for (const auto& [folder, below] : kArrows) folders.insert(folder);
+    for (const std::string& folder : folders) {
+      if (!fs::is_directory(kRoot / folder)) continue;
+      for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+        if (entry.is_regular_file() && is_source(entry.path())) add_includes(fs::relative(entry.path(), kRoot), found);
+      }
+    }
+    return found;
+  }();
+  return includes;
+}
+
+std::string where(const Include& i) { return i.file + ":" + std::to_string(i.line) + ": includes " + i.name; }
+
+TEST(Architecture, SourcesAreFound) { EXPECT_GT(all_includes().size(), 100u); }
+
+TEST(Architecture, FoldersIncludeOnlyWhatTheyMay) {
+  for (const Include& i : all_includes()) {
+    const auto arrows = kArrows.find(i.folder);
+    if (!i.quoted || arrows == kArrows.end()) continue;  // tests and benchmarks may see everything
+    const std::size_t slash = i.name.find('/');
+    if (slash == std::string::npos) continue;            // a generated file of the same folder
+    const std::string target = i.name.substr(0, slash);
+    EXPECT_TRUE(target == i.folder || arrows->second.count(target)) << where(i);
+    if (i.folder == "gap" && target == "effects") EXPECT_TRUE(kGapSeesOfEffects.count(i.name)) << where(i);
+  }
+}
+
+TEST(Architecture, NoFileReachesUpwards) {
+  for (const Include& i : all_includes()) EXPECT_EQ(i.name.find(".."), std::string::npos) << where(i);
+}
+
+TEST(Architecture, OnlySimSeesBullet) {
+  const std::regex bullet("(^|/)(bullet|Bullet|bt[A-Z]|LinearMath)");
+  int seen = 0;
+  for (const Include& i : all_includes()) {
+    if (!std::regex_search(i.name, bullet)) continue;
+    EXPECT_TRUE(kSeesBullet.count(i.folder)) << where(i);
+    ++seen;
+  }
+  EXPECT_GT(seen, 0);
+}
+
+// A header of sim/ that shows Bullet would show it to all who include that header.
+TEST(Architecture, OutsideSimNobodyIncludesAHeaderThatShowsBullet) {
+  std::map<std::string, Names> includes_of;
+  for (const Include& i : all_includes()) includes_of[i.file].insert(i.name);
+  const std::regex bullet("(^|/)(bullet|Bullet|bt[A-Z]|LinearMath)");
+  for (const auto& [file, direct] : includes_of) {
+    if (kSeesBullet.count(folder_of(file))) continue;
+    std::vector<std::string> open(direct.begin(), direct.end());
+    Names reached;
+    while (!open.empty()) {
+      const std::string name = open.back();
+      open.pop_back();
+      if (!reached.insert(name).second) continue;
+      EXPECT_FALSE(std::regex_search(name, bullet)) << file << " reaches " << name;
+      const auto next = includes_of.find(name);
+      if (next != includes_of.end()) open.insert(open.end(), next->second.begin(), next->second.end());
+    }
+  }
+}
+
+TEST(Architecture, TopLevelIsTheHousePlan) {
+  Names present;
+  for (const auto& entry : fs::directory_iterator(kRoot)) {
+    const std::string name = entry.path().filename().string();
+    if (name.front() != '.') present.insert(name);
+  }
+  for (const std::string& name : present) EXPECT_TRUE(kTopLevel.count(name)) << name << " has no place at the top";
+  for (const std::string& name : kMustStand) EXPECT_TRUE(present.count(name)) << name << " is missing";
+}
+
+TEST(Architecture, DataFoldersHoldDataOnly) {
+  for (const auto& [folder, extension] : {std::pair{"scenarios", ".yaml"}, std::pair{"robots", ".urdf"}}) {
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+      EXPECT_EQ(entry.path().extension(), extension) << entry.path();
+    }
+  }
+}
+
+}  // namespace

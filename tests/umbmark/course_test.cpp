@@ -1,0 +1,177 @@
+// The course's timing and shape by closed form, and the driver in pure kinematics.
+#include "umbmark/course.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "tests/umbmark/exact_kinematics.h"
+
+namespace umbsim {
+namespace {
+
+using testing::PlanePose;
+
+constexpr double kRoundOff = 1e-9;
+
+Course arc_course() {
+  Course course;
+  course.turn = "arc";
+  course.turn_radius_m = 0.5;
+  return course;
+}
+
+TEST(Plan, DurationsAreThoseOfTrapezia) {
+  const Course c;
+  const Plan plan(c, Direction::ccw);
+  ASSERT_EQ(plan.segments().size(), 8u);
+  const double leg_s = 4 / 0.2 + 0.2 / 0.25;                // L / v + v / a
+  const double turn_s = (M_PI / 2) / 0.7 + 0.7 / 1.5;
+  EXPECT_NEAR(plan.segments()[0].duration_s, leg_s, kRoundOff);
+  EXPECT_NEAR(plan.segments()[1].duration_s, turn_s, kRoundOff);
+  EXPECT_NEAR(plan.duration_s(), 4 * (leg_s + turn_s) + 8 * c.dwell_s, kRoundOff);
+  std::cout << "4 m square: " << plan.duration_s() << " s\n";
+}
+
+TEST(Plan, ShortWaysAreTriangles) {
+  Course c;
+  c.side_m = 0.1;  // 0.2 m/s needs 0.16 m to speed up and slow down
+  EXPECT_NEAR(Plan(c, Direction::cw).segments()[0].duration_s, 2 * std::sqrt(0.1 / 0.25), kRoundOff);
+}
+
+TEST(Plan, ArcTurnsAreQuarterCircles) {
+  const Plan plan(arc_course(), Direction::ccw);
+  EXPECT_NEAR(plan.segments()[0].length_m, 3, kRoundOff);
+  EXPECT_NEAR(plan.segments()[1].length_m, 0.5 * M_PI / 2, kRoundOff);
+  const Segment& turn = plan.segments()[1];
+  for (double t = 0; t <= turn.duration_s; t += 0.1) {
+    const Pose2 p = plan.at(turn.start_s + t).X_SB;
+    EXPECT_NEAR(std::hypot(p.x_m - 3, p.y_m - 0.5), 0.5, kRoundOff) << "about (3, 0.5)";
+  }
+  EXPECT_NEAR(plan.at(turn.start_s + turn.duration_s).X_SB.x_m, 3.5, kRoundOff);
+  EXPECT_NEAR(plan.at(turn.start_s + turn.duration_s).X_SB.y_m, 0.5, kRoundOff);
+}
+
+TEST(Plan, CornersAndEndOfTheSquare) {
+  for (const Direction direction : {Direction::cw, Direction::ccw}) {
+    const double sense = direction == Direction::ccw ? 1 : -1;
+    const Plan plan(Course{}, direction);
+    const double corner_x[] = {4, 4, 0, 0}, corner_y[] = {0, 4, 4, 0};
+    for (int leg = 0; leg < 4; ++leg) {
+      const Segment& turn = plan.segments()[2 * leg + 1];
+      const Pose2 p = plan.at(turn.start_s + turn.duration_s / 2).X_SB;
+      EXPECT_NEAR(p.x_m, corner_x[leg], kRoundOff);
+      EXPECT_NEAR(p.y_m, sense * corner_y[leg], kRoundOff);
+      EXPECT_NEAR(p.theta_rad, sense * M_PI / 2 * (leg + 0.5), kRoundOff);
+    }
+    const Pose2 end = plan.at(plan.duration_s() + 10).X_SB;
+    EXPECT_NEAR(std::hypot(end.x_m, end.y_m), 0, kRoundOff);
+    EXPECT_NEAR(end.theta_rad, sense * 2 * M_PI, kRoundOff);
+  }
+}
+
+TEST(Plan, ClosesForArcsAndSeveralLaps) {
+  Course c = arc_course();
+  c.laps = 3;
+  const Plan plan(c, Direction::cw);
+  EXPECT_EQ(plan.segments().size(), 24u);
+  const Pose2 end = plan.at(plan.duration_s()).X_SB;
+  EXPECT_NEAR(std::hypot(end.x_m, end.y_m), 0, kRoundOff);
+  EXPECT_NEAR(end.theta_rad, -6 * M_PI, kRoundOff);
+}
+
+// No jump in place, and none in speed: over 5 ms neither changes by more than speed and acceleration allow.
+TEST(Plan, ReferenceIsContinuousInPlaceAndSpeed) {
+  constexpr double kStep_s = 0.005, kSlack = 1e-6;
+  for (const Course& c : {Course{}, arc_course()}) {
+    const double w_max = c.turn == "arc" ? 0.2 / 0.5 : 0.7;
+    const double w_accel = c.turn == "arc" ? 0.25 / 0.5 : 1.5;
+    const Plan plan(c, Direction::ccw);
+    Pose2 last = plan.at(0).X_SB;
+    double last_v = 0, last_w = 0;
+    int hint = 0;
+    for (double t = kStep_s; t < plan.duration_s(); t += kStep_s) {
+      const Reference now = plan.at(t, hint);
+      hint = now.segment;
+      const double v = std::hypot(now.X_SB.x_m - last.x_m, now.X_SB.y_m - last.y_m) / kStep_s;
+      const double w = std::abs(now.X_SB.theta_rad - last.theta_rad) / kStep_s;
+      ASSERT_LE(v, 0.2 + kSlack) << t;
+      ASSERT_LE(w, w_max + kSlack) << t;
+      ASSERT_LE(std::abs(v - last_v), 0.25 * kStep_s + kSlack) << t;
+      ASSERT_LE(std::abs(w - last_w), w_accel * kStep_s + kSlack) << t;
+      last = now.X_SB;
+      last_v = v;
+      last_w = w;
+    }
+  }
+}
+
+TEST(Plan, HintDoesNotChangeTheAnswer) {
+  const Plan plan(Course{}, Direction::cw);
+  for (double t = 0; t < plan.duration_s(); t += 0.37) {
+    for (const int hint : {-3, 0, 4, 7, 100}) {
+      EXPECT_EQ(plan.at(t, hint).segment, plan.at(t).segment);
+      EXPECT_EQ(plan.at(t, hint).X_SB.x_m, plan.at(t).X_SB.x_m);
+    }
+  }
+}
+
+TEST(Plan, CwIsTheMirrorImageOfCcw) {
+  const Plan cw(Course{}, Direction::cw), ccw(Course{}, Direction::ccw);
+  ASSERT_EQ(cw.duration_s(), ccw.duration_s());
+  for (double t = 0; t < cw.duration_s(); t += 0.11) {
+    const Pose2 a = cw.at(t).X_SB, b = ccw.at(t).X_SB;
+    EXPECT_EQ(a.x_m, b.x_m);
+    EXPECT_EQ(a.y_m, -b.y_m);
+    EXPECT_EQ(a.theta_rad, -b.theta_rad);
+  }
+}
+
+// The largest distance from the reference in the last `seconds` of a course that begins with `start`.
+double tracking_error(const Course& c, const PlanePose& start, double from_s, PlanePose& robot) {
+  const Plan plan(c, Direction::ccw);
+  const DriveGeometry geometry{0.075, 0.0752, 0.341};
+  constexpr double kPeriod_s = 0.02;
+  robot = start;
+  double worst_m = 0;
+  int segment = 0;
+  for (double t = 0; t < plan.duration_s(); t += kPeriod_s) {
+    const Reference now = plan.at(t, segment);
+    segment = now.segment;
+    if (t > from_s) worst_m = std::max(worst_m, std::abs(robot.p - std::complex(now.X_SB.x_m, now.X_SB.y_m)));
+    const Pose2 X_SB{robot.p.real(), robot.p.imag(), robot.heading};
+    const WheelSpeeds w = drive(plan, t, kPeriod_s, X_SB, geometry, segment);
+    robot.roll(w.left_radps * 0.075 * kPeriod_s, w.right_radps * 0.0752 * kPeriod_s, 0.341);
+  }
+  return worst_m;
+}
+
+// Where each control period lies within one segment with constant acceleration the feed-forward is exact; periods
+// that straddle a start from rest are exact as well, since only one of forward motion and turn is non-zero.
+TEST(Driver, StaysOnTheReference) {
+  PlanePose robot;
+  EXPECT_LT(tracking_error(Course{}, {}, 0, robot), kRoundOff);
+  EXPECT_NEAR(std::abs(robot.p), 0, kRoundOff);
+  EXPECT_NEAR(robot.heading, 2 * M_PI, kRoundOff);
+}
+
+TEST(Driver, ConvergesFromAnOffset) {
+  PlanePose robot;
+  const double left_m = tracking_error(Course{}, {{0.03, -0.05}, 0.15}, 20, robot);
+  std::cout << "58 mm and 8.6 degrees off at the start: " << 1e6 * left_m << " um after the first leg\n";
+  // Corrections fade out in a quarter of a second; across the path in a few, while driving: e^-20 after 20 s.
+  EXPECT_LT(left_m, 1e-6);
+  EXPECT_NEAR(robot.heading, 2 * M_PI, 1e-6);
+}
+
+TEST(Driver, StandsStillAtTheEnd) {
+  const Plan plan(Course{}, Direction::cw);
+  const Pose2 end = plan.at(plan.duration_s()).X_SB;
+  const WheelSpeeds w = drive(plan, plan.duration_s() + 1, 0.02, end, {0.075, 0.075, 0.34}, 7);
+  EXPECT_EQ(w.left_radps, 0);
+  EXPECT_EQ(w.right_radps, 0);
+}
+
+}  // namespace
+}  // namespace umbsim
