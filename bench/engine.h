@@ -37,14 +37,14 @@ std::unique_ptr<Engine> make_ours(const Setup& setup);
 /// Bullet as it comes: btMultiBodyDynamicsWorld, its default sequential-impulse solver, btCylinderShape wheels.
 std::unique_ptr<Engine> make_stock_bullet(const Setup& setup, int iterations);
 
-/// MuJoCo's settings that matter for this task.
+/// MuJoCo's settings that matter for this task. The defaults are the best that `umbsim_compare --tune-mujoco` found.
 struct MujocoOptions {
-  std::string integrator = "implicit";  ///< Euler | RK4 | implicit
-  std::string cone = "elliptic";        ///< pyramidal | elliptic
+  std::string integrator = "Euler";     ///< Euler | RK4 | implicit
+  std::string cone = "pyramidal";       ///< pyramidal | elliptic
   std::string wheel = "ellipsoid";      ///< cylinder | ellipsoid | sphere
-  double servo_gain = 200;              ///< velocity servo, N m s
+  double servo_gain = 20;               ///< velocity servo, N m s
   double contact_time_s = 0.004;        ///< solref's time constant; at least two steps
-  double impratio = 10;
+  double impratio = 100;
   int noslip_iterations = 0;
 };
 

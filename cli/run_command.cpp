@@ -23,7 +23,7 @@ struct RunArguments {
 void run(const RunArguments& a) {
   const Scenario scenario = read_scenario(a.scenario, a.settings);
   const std::string out = a.out.empty() ? "results/" + scenario.name : a.out;
-  check_output_folder(out, a.force);
+  prepare_output_folder(out, a.force);
   const ExperimentResult result = run_experiment(scenario, a.jobs);
   write_run_folder(result, render_report(report_json(result)), out, a.force);
   fmt::print("{}Result in {}: open {}/report.html\n", experiment_table(result), out, out);

@@ -41,6 +41,8 @@ inline double sinc(double x) {
 /// The relative pose after an arc of length `ds_m` that turns by `dtheta_rad`: the arc taken as a chord,
 /// exact for any angle.
 inline Pose2 arc(double ds_m, double dtheta_rad) {
+  if (dtheta_rad == 0) return {ds_m, 0, 0};
+  if (ds_m == 0) return {0, 0, dtheta_rad};
   const double chord = ds_m * sinc(dtheta_rad / 2);
   return {chord * std::cos(dtheta_rad / 2), chord * std::sin(dtheta_rad / 2), dtheta_rad};
 }

@@ -16,8 +16,10 @@ for scenario in umbmark labmate_exact nominal extended_umbmark unidirectional_tr
 done
 for wheel in inner outer; do
   run "cable-labmate-$wheel" scenarios/nominal.yaml --set "bumps={count: 1, wheel: $wheel}"
-  run "cable-small-$wheel" scenarios/nominal.yaml --set "bumps={count: 1, wheel: $wheel}" \
-    --set robot.urdf=optiodom.urdf --set effects.wheelbase.relative=0.007
+  for speed in 0.1 0.2; do
+    run "cable-small-$speed-$wheel" scenarios/nominal.yaml --set "bumps={count: 1, wheel: $wheel}" \
+      --set robot.urdf=optiodom.urdf --set effects.wheelbase.relative=0.007 --set course.linear_speed_mps=$speed
+  done
 done
 for d in -0.01 -0.005 0 0.005 0.01; do
   for b in -0.04 -0.02 0 0.02 0.04; do
@@ -61,7 +63,8 @@ row("ccw; exact kinematics: (229.995, -209.397) mm, 6.3912°", centroid(u["ccw"]
 row("E_max,syst; exact kinematics: 311.04 mm", f"{mm(u['e_max_syst_m']):.2f} mm", "as above")
 r = e["recovery"]
 row("Calibrated and driven again, without noise",
-    f"{mm(r['e_max_before_m']):.1f} → {mm(r['e_max_after_m']):.3f} mm, {r['improvement']:.0f} times smaller", "as above")
+    f"{mm(r['e_max_before_m']):.1f} → {mm(r['e_max_after_m']):.3f} mm, {r['improvement']:.0f} times smaller",
+    "as above")
 s = load("umbmark")
 r, spread = s["recovery"], max(s["umbmark"][d]["sd_m"] for d in ("cw", "ccw"))
 row(f"With noise (spread of the clusters {mm(spread):.0f} mm)",
@@ -82,12 +85,14 @@ def cable(R, b, h=0.010):
     psi = math.acos((R - h / 2) / (R + h / 2))
     return deg((2 * (R + h / 2) * psi - 4 * math.sqrt(R * h / 2)) / b)
 
-for name, R, b, more in (("labmate", 0.075, 0.340, ""),
-                         ("small", 0.042, 0.2014, " --set robot.urdf=optiodom.urdf --set effects.wheelbase.relative=0.007")):
+small = " --set robot.urdf=optiodom.urdf --set effects.wheelbase.relative=0.007 --set course.linear_speed_mps="
+for name, R, b, speed, more in (("labmate", 0.075, 0.340, 0.2, ""), ("small-0.1", 0.042, 0.2014, 0.1, small + "0.1"),
+                                ("small-0.2", 0.042, 0.2014, 0.2, small + "0.2")):
     values = [deg(load(f"cable-{name}-{wheel}")["extended"][f"{d}_mean_abs_heading_error_rad"])
               for wheel in ("inner", "outer") for d in ("cw", "ccw")]
     exact = cable(R, b)
-    row(f"One 10 mm cable, R {R * 1000:.0f} mm, b {b * 1000:.4g} mm, either wheel and direction; closed form {exact:.3f}°",
+    row(f"One 10 mm cable, R {R * 1000:.0f} mm, b {b * 1000:.4g} mm, {speed} m/s, either wheel and direction; "
+        f"closed form {exact:.3f}°",
         f"{min(values):.3f}° to {max(values):.3f}° ({100 * (sum(values) / 4 / exact - 1):+.1f} %)",
         f"`./umbsim run scenarios/nominal.yaml --set 'bumps={{count: 1}}'{more}`")
 x = load("extended_umbmark")
@@ -127,7 +132,7 @@ print(table)
 PYTHON
 
 # The picture: the cluster figure of the default report alone.
-hide='header, footer, main > section:not(#scatter), #scatter p, #scatter figcaption {display: none !important}
+hide='header, footer, main > section:not(#scatter), #scatter figcaption {display: none !important}
 main {margin: 0 !important; padding: 10px !important}'
 awk -v style="<style>$(echo "$hide" | tr '\n' ' ')</style>" '{sub("</head>", style "</head>"); print}' \
   "$out/umbmark/report.html" > "$out/figure.html"

@@ -70,7 +70,7 @@ const EffectInfo& find_effect(const std::string& name) {
     if (info.name == name) return info;
     names.push_back(info.name);
   }
-  throw InputError("unknown effect '" + name + "'" + list_choices(name, names));
+  throw InputError("unknown effect '" + name + "'; " + list_choices(name, names));
 }
 
 std::vector<Effect> read_effects(const YamlValue& value) {

@@ -43,6 +43,17 @@ void check_output_folder(const fs::path& given, bool force) {
   }
 }
 
+void prepare_output_folder(const fs::path& given, bool force) {
+  check_output_folder(given, force);
+  const fs::path parent = fs::absolute(without_slash(given)).parent_path();
+  std::error_code error;
+  fs::create_directories(parent, error);
+  const fs::path probe = parent / fmt::format(".umbsim.{}.probe", getpid());
+  if (!error) fs::create_directory(probe, error);
+  if (error) fail(given, error);
+  fs::remove(probe, error);
+}
+
 void write_folder(const fs::path& given, bool force, const std::function<void(const fs::path&)>& fill) {
   const fs::path folder = without_slash(given);
   check_output_folder(folder, force);

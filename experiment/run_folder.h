@@ -11,6 +11,9 @@ namespace umbsim {
 /// Throws InputError if `folder` already holds a result and `force` is false, or cannot be a result folder.
 void check_output_folder(const std::filesystem::path& folder, bool force);
 
+/// The same, and throws RunError if nothing can be written there: before the work rather than after it.
+void prepare_output_folder(const std::filesystem::path& folder, bool force);
+
 /// Writes a folder whole or not at all: `fill` writes into a folder beside it, which is renamed when complete.
 /// Throws RunError if that fails; nothing is left behind then, and an older result stays as it was.
 void write_folder(const std::filesystem::path& folder, bool force,

@@ -17,7 +17,7 @@ constexpr int kNewtonIterations = 40;
 constexpr int kHalvings = 6;
 constexpr int kSweeps = 3000;
 
-constexpr int kUsualRows = 9;  // two wheels with friction, a ball without, two motors
+constexpr int kUsualRows = 7;  // two wheels with friction, a ball without
 
 // x = -A^-1 b by Cholesky, A = L L^T. N: number of rows at compile time where it is the usual one.
 template <int N>

@@ -1,6 +1,7 @@
 #include "sim/multibody.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 namespace umbsim {
 namespace {
@@ -91,7 +92,9 @@ MultiBody::MultiBody(const RobotModel& robot, double gravity_mps2) : robot_(robo
   inverse_mass_.resize(dofs(), dofs());
   u_ = DofVector::Zero(dofs());
   set_pose(Quaterniond::Identity(), Vector3d::Zero());
-  if (constant_mass_) compute_inverse_mass();
+  if (!constant_mass_) return;
+  compute_inverse_mass();
+  compute_held_motors();
 }
 
 void MultiBody::build_wheels(const RobotModel& robot) {
@@ -211,6 +214,16 @@ void MultiBody::compute_inverse_mass() {
   inverse_mass_ = (0.5 * (inverse_mass_ + inverse_mass_.transpose())).eval();
 }
 
+void MultiBody::compute_held_motors() {
+  const Eigen::Matrix<double, 8, 2> e = inverse_mass_.rightCols<2>();
+  held_.inertia = Eigen::Matrix2d(e.bottomRows<2>()).inverse();
+  held_.gain = e * held_.inertia;
+  held_.gain.bottomRows<2>().setIdentity();
+  held_.inverse_mass = inverse_mass_ - held_.gain * e.transpose();
+  held_.inverse_mass.rightCols<2>().setZero();
+  held_.inverse_mass.bottomRows<2>().setZero();
+}
+
 void MultiBody::integrate(double step_s) {
   const Vector3d turn = u_.head<3>() * step_s;
   const TurnSeries series(turn.squaredNorm());
@@ -234,15 +247,14 @@ Joint MultiBody::current(int joint) const {
   return j;
 }
 
-DofVector MultiBody::jacobian(int joint, const Vector3d& point_m, const Vector3d& direction) const {
-  DofVector row = DofVector::Zero(dofs());
+void MultiBody::jacobian(int joint, const Vector3d& point_m, const Vector3d& direction, DofVector& row) const {
+  row.setZero(dofs());
   row.head<3>() = (point_m - com_B_).cross(direction);
   row.segment<3>(3) = direction;
   for (int j = joint; j >= 0; j = joints_[j].parent) {
     const Joint at = current(j);
     row[6 + j] = at.axis.cross(point_m - at.pivot_m).dot(direction);
   }
-  return row;
 }
 
 double MultiBody::energy() {

@@ -16,6 +16,14 @@ constexpr int kMaxDofs = 16;
 using DofVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxDofs, 1>;
 using DofMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kMaxDofs, kMaxDofs>;
 
+/// How the robot answers while both motors hold the wheels at their set-points. With e the two wheel columns of M^-1 and
+/// inertia = (e^T M^-1 e)^-1:
+struct HeldMotors {
+  DofMatrix inverse_mass;                ///< M^-1 - M^-1 e inertia e^T M^-1; the wheels' rows and columns are zero
+  Eigen::Matrix<double, 8, 2> gain;      ///< M^-1 e inertia: change of u per change of wheel speed
+  Eigen::Matrix2d inertia;               ///< impulse per change of wheel speed
+};
+
 /// One moving part beside the base: a drive wheel, a caster's fork, or a caster's wheel.
 struct Joint {
   int parent = -1;           ///< index of the joint that carries this one; -1: the base
@@ -52,6 +60,8 @@ class MultiBody {
   /// M^-1, (dofs, dofs), for the same coordinates. Constant, hence computed once, where no caster swivels: the
   /// drive wheels are bodies of revolution.
   const DofMatrix& inverse_mass();
+  /// nullptr where casters swivel.
+  const HeldMotors* held_motors() const { return constant_mass_ ? &held_ : nullptr; }
 
   /// Moves pose and joints for `step_s` with the current velocity, constant in the base frame (the exponential map of
   /// SE(3): arcs come out as arcs). Afterwards the velocity is the same vector in the world, seen from the turned base.
@@ -59,7 +69,7 @@ class MultiBody {
 
   /// Row of the contact Jacobian: velocity along `direction` of the material point `point_m` of the part behind
   /// `joint` (-1: the base). All in the base frame.
-  DofVector jacobian(int joint, const Eigen::Vector3d& point_m, const Eigen::Vector3d& direction) const;
+  void jacobian(int joint, const Eigen::Vector3d& point_m, const Eigen::Vector3d& direction, DofVector& row) const;
 
   /// Current pivot and axis of a joint in the base frame.
   Joint current(int joint) const;
@@ -71,6 +81,7 @@ class MultiBody {
   void build_wheels(const RobotModel& robot);
   void build_casters(const RobotModel& robot);
   void compute_inverse_mass();
+  void compute_held_motors();
   void to_bullet_state();
   DofVector gyroscopic_and_weight() const;
 
@@ -86,6 +97,7 @@ class MultiBody {
   double gravity_mps2_;
   bool constant_mass_ = true;
   DofMatrix inverse_mass_;
+  HeldMotors held_;
 
   Eigen::Quaterniond q_WB_ = Eigen::Quaterniond::Identity();
   Eigen::Matrix3d R_WB_ = Eigen::Matrix3d::Identity();

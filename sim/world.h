@@ -17,8 +17,8 @@ namespace umbsim {
 /// carries at rest, where its radius is the nominal one; the rolling radius does not follow (a tread that keeps its
 /// length). Without it every bump would be a blow between rigid bodies, which lifts the other wheels.
 struct Softness {
-  double static_sink_m = 0.0001;
-  double damping_ratio = 1;  ///< of the load on its spring
+  double static_sink_m = 0.00012;
+  double damping_ratio = 2;  ///< of the load on its spring
 };
 
 struct PhysicsOptions {

@@ -6,36 +6,26 @@
 namespace umbsim {
 namespace {
 
-// A trapezoidal speed profile over `distance` > 0, or a triangle where the speed is not reached.
-struct Profile {
-  double ramp_s = 0;
-  double speed = 0;
-  double duration_s = 0;
+// What the profile runs over: metres, or radians when turning in place.
+double extent(const Segment& s) { return s.length_m > 0 ? s.length_m : std::abs(s.angle_rad); }
 
-  Profile(double distance, double max_speed, double acceleration) {
-    ramp_s = std::min(max_speed / acceleration, std::sqrt(distance / acceleration));
-    speed = acceleration * ramp_s;
-    duration_s = distance / speed + ramp_s;
-  }
-  double distance(double t) const {
-    t = std::clamp(t, 0.0, duration_s);
-    const double acceleration = speed / ramp_s;
-    if (t < ramp_s) return acceleration * t * t / 2;
-    if (t > duration_s - ramp_s) {
-      const double left_s = duration_s - t;
-      return speed * (duration_s - ramp_s) - acceleration * left_s * left_s / 2;
-    }
-    return speed * (t - ramp_s / 2);
-  }
-};
+// A trapezoidal speed profile, or a triangle where the speed is not reached.
+void set_profile(Segment& s, const Course& course) {
+  const bool rolling = s.length_m > 0;
+  double top = rolling ? course.linear_speed_mps : course.angular_speed_radps;
+  if (rolling && s.angle_rad != 0) top = std::min(top, course.angular_speed_radps * s.length_m / std::abs(s.angle_rad));
+  const double acceleration = rolling ? course.linear_acceleration_mps2 : course.angular_acceleration_radps2;
+  s.ramp_s = std::min(top / acceleration, std::sqrt(extent(s) / acceleration));
+  s.speed = acceleration * s.ramp_s;
+  s.duration_s = extent(s) / s.speed + s.ramp_s;
+}
 
-Profile profile(const Segment& segment, const Course& course) {
-  if (segment.length_m > 0) {
-    const double radius_m = std::abs(segment.length_m / std::max(std::abs(segment.angle_rad), 1e-12));
-    const double speed = std::min(course.linear_speed_mps, course.angular_speed_radps * radius_m);
-    return {segment.length_m, speed, course.linear_acceleration_mps2};
-  }
-  return {std::abs(segment.angle_rad), course.angular_speed_radps, course.angular_acceleration_radps2};
+double extent_at(const Segment& s, double t) {
+  t = std::clamp(t, 0.0, s.duration_s);
+  const double left_s = s.duration_s - t;
+  if (t < s.ramp_s) return s.speed / s.ramp_s * t * t / 2;
+  if (left_s < s.ramp_s) return extent(s) - s.speed / s.ramp_s * left_s * left_s / 2;
+  return s.speed * (t - s.ramp_s / 2);
 }
 
 // Gains of the pose correction, per second (heading, along) and per metre and second (across).
@@ -45,16 +35,17 @@ constexpr double kAcross = 8;
 
 }  // namespace
 
-Plan::Plan(const Course& course, Direction direction) : course_(course) {
+Plan::Plan(const Course& course, Direction direction) {
   const bool arc_turn = course.turn == "arc";
   const double turn_rad = (direction == Direction::ccw ? 1 : -1) * M_PI / 2;
   const double leg_m = arc_turn ? course.side_m - 2 * course.turn_radius_m : course.side_m;
   Pose2 X_SB;
   for (int leg = 1; leg <= 4 * course.laps; ++leg) {
-    Segment straight{Segment::Kind::leg, leg, leg_m, 0, 0, 0, {}};
-    Segment turn{Segment::Kind::turn, leg, arc_turn ? course.turn_radius_m * M_PI / 2 : 0, turn_rad, 0, 0, {}};
+    Segment straight{.kind = Segment::Kind::leg, .leg = leg, .length_m = leg_m, .X_SB_start = {}};
+    Segment turn{.kind = Segment::Kind::turn, .leg = leg, .length_m = arc_turn ? course.turn_radius_m * M_PI / 2 : 0,
+                 .angle_rad = turn_rad, .X_SB_start = {}};
     for (Segment* segment : {&straight, &turn}) {
-      segment->duration_s = profile(*segment, course).duration_s;
+      set_profile(*segment, course);
       segment->start_s = duration_s_;
       segment->X_SB_start = X_SB;
       X_SB = X_SB * arc(segment->length_m, segment->angle_rad);
@@ -69,9 +60,7 @@ Reference Plan::at(double time_s, int segment_hint) const {
   while (i > 0 && segments_[i].start_s > time_s) --i;
   while (i + 1 < int(segments_.size()) && segments_[i + 1].start_s <= time_s) ++i;
   const Segment& s = segments_[i];
-  const Profile p = profile(s, course_);
-  const double total = s.length_m > 0 ? s.length_m : std::abs(s.angle_rad);
-  const double part = p.distance(time_s - s.start_s) / total;
+  const double part = extent_at(s, time_s - s.start_s) / extent(s);
   return {s.X_SB_start * arc(part * s.length_m, part * s.angle_rad), i};
 }
 

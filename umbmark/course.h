@@ -31,6 +31,8 @@ struct Segment {
   double length_m = 0;        ///< along the path; 0 when turning in place
   double angle_rad = 0;       ///< ccw positive
   double duration_s = 0;      ///< motion, without the dwell
+  double ramp_s = 0;          ///< of speeding up, and of slowing down
+  double speed = 0;           ///< on the plateau, m/s; rad/s when turning in place
   double start_s = 0;
   Pose2 X_SB_start;           ///< in the frame of the course's start
 };
@@ -53,7 +55,6 @@ class Plan {
   Reference at(double time_s, int segment_hint = 0) const;
 
  private:
-  Course course_;
   std::vector<Segment> segments_;
   double duration_s_ = 0;
 };

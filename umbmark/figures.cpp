@@ -11,6 +11,9 @@
 namespace umbsim {
 namespace {
 
+// Shares of errors smaller than this would be shares of round-off.
+constexpr double kRoundOff_rad = 1e-6;
+
 bool is_bumped(const RecordedRun& run) { return !run.bumps.empty() || run.inner_wheel_bumps.value_or(0) > 0; }
 
 double mean_abs_deviation(const Cluster& bumped, double plain_heading_rad) {
@@ -114,7 +117,7 @@ Umbmark umbmark(Cluster cw, Cluster ccw, double side_m, double nominal_wheelbase
   u.heading = heading_estimate((cw.heading_rad - ccw.heading_rad) / 8, (cw.heading_rad + ccw.heading_rad) / 8, side_m,
                                nominal_wheelbase_m);
   const double total = std::abs(u.heading.alpha_rad) + std::abs(u.heading.beta_rad);
-  if (total > 0) {
+  if (total > kRoundOff_rad) {
     u.type_a_share = std::abs(u.heading.alpha_rad) / total;
     u.type_b_share = std::abs(u.heading.beta_rad) / total;
   }

@@ -1,4 +1,4 @@
-// Every command in README.md and docs/ that starts the program is run as printed, in the order in which a reader meets it.
+// Every command in README.md and docs/ that starts the program is run as printed, in the reader's order.
 #include "tests/acceptance/markdown.h"
 #include "tests/acceptance/program.h"
 

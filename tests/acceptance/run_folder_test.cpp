@@ -160,7 +160,8 @@ TEST(RunFolder, TrapShowsNothingOneWayAndMuchTheOther) {
 // Runs with cables at given places must not count as plain squares.
 TEST(RunFolder, FixedCablesMakeBumpedRuns) {
   const Desk desk;
-  const Outcome run = desk.umbsim({"run", shipped("nominal"), "--set", "bumps.cables=[{x_m: 2, y_m: -0.17}]", "--out", "a"});
+  const Outcome run =
+      desk.umbsim({"run", shipped("nominal"), "--set", "bumps.cables=[{x_m: 2, y_m: -0.17}]", "--out", "a"});
   ASSERT_EQ(run.code, 0) << run.err;
   const json summary = json_of(desk.home / "a/summary.json");
   EXPECT_EQ(summary.at("umbmark").at("cw").at("runs"), 1);

@@ -82,7 +82,9 @@ TEST(DeadReckoning, ArcIsTheLimitOfEuler) {
 // PHYSICS: with 2000 ticks one tick is 0.24 mm at the wheel and 0.04 degrees of heading.
 TEST(DeadReckoning, OneTickIsTheResolution) {
   const Pose2 pose = after(kLabmate, 0, 1);
-  EXPECT_NEAR(pose.x_m, 2 * M_PI * 0.075 / 2000 / 2, kRoundOff);
+  const double turn = 2 * M_PI * 0.075 / 2000 / 0.340;
+  EXPECT_NEAR(pose.theta_rad, turn, kRoundOff);
+  EXPECT_NEAR(pose.x_m, 0.17 * std::sin(turn), kRoundOff) << "about the left wheel";
   EXPECT_NEAR(kLabmate.right_metres_per_tick(), 0.00024, 0.000005);
   EXPECT_NEAR(degrees(pose.theta_rad), 0.04, 0.0005);
   std::cout << "one tick: " << 1000 * kLabmate.right_metres_per_tick() << " mm, " << degrees(pose.theta_rad)

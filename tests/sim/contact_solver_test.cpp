@@ -77,8 +77,9 @@ TEST(ContactSolver, AllClosedAndStickingNeedsOneFactorisation) {
     // Impulses chosen inside all cones and bounds, and b made to fit them.
     RowVector inside = RowVector::Zero(p.b.size());
     for (int i = 0; i < p.contacts; ++i) {
-      inside[p.contact[i].normal] = random.uniform(0.1, 2);
-      if (p.contact[i].friction > 0) inside[p.contact[i].normal + 1] = 0.9 * p.contact[i].friction * inside[p.contact[i].normal];
+      const auto [n, friction] = p.contact[i];
+      inside[n] = random.uniform(0.1, 2);
+      if (friction > 0) inside[n + 1] = 0.9 * friction * inside[n];
     }
     for (int i = 0; i < p.motors; ++i) inside[p.motor[i].row] = -0.9 * p.motor[i].limit;
     p.b = -p.A * inside;

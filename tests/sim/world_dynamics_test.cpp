@@ -48,8 +48,8 @@ TEST(WorldDynamics, TorqueLimitsTheAcceleration) {
 }
 
 // Wheels that slip push with mu N. Moments about the ground below the axle (pitch positive nose down), with the ball's
-// load Nb: m_base g x_com - Nb x_ball = m_base H a + m_wheels R a + I alpha, and m a = mu (m g - Nb); friction < 0 stands
-// for braking. The wheels' I alpha = s0 + s1 Nb is either known or 2 tau - mu (m g - Nb) R. Linear in Nb.
+// load Nb: m_base g x_com - Nb x_ball = m_base H a + m_wheels R a + I alpha, and m a = mu (m g - Nb); friction < 0
+// stands for braking. The wheels' I alpha = s0 + s1 Nb is either known or 2 tau - mu (m g - Nb) R. Linear in Nb.
 double slipping_acceleration(double friction, double s0, double s1 = 0) {
   const double mass_height = kBase_kg * kComHeight_m + 2 * kR_m;
   const double c0 = friction * kG, c1 = friction / kRobot_kg;  // a = c0 - c1 Nb

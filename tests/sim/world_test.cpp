@@ -90,23 +90,23 @@ TEST(World, TurnInPlaceIsWheelTravelOverWheelbase) {
             << std::hypot(X_WB.x_m, X_WB.y_m) << " m\n";
 }
 
-// Wheel travel in a constant ratio: a circle about a point b/2 (s_R + s_L) / (s_R - s_L) to the left of the middle of the
-// contact points. Where the wheels differ the axle leans, and both contact points stand `side_m` to its left.
+// Wheel travel in a constant ratio: a circle about a point b/2 (s_R + s_L) / (s_R - s_L) to the left of the middle of
+// the contact points. Where the wheels differ the axle leans, and both contact points stand `side_m` to its left.
 Pose2 circle(double left_m, double right_m, double wheelbase_m, double side_m) {
   const double turn = (right_m - left_m) / wheelbase_m;
   const double radius_m = (left_m + right_m) / 2 / turn + side_m;  // of the axle's middle
   return {radius_m * std::sin(turn), radius_m * (1 - std::cos(turn)), turn};
 }
 
-// Rolling without slip is kinematics, and no length of step may show. Speeds keep their ratio, so the whole trip lies on
-// one circle.
+// Rolling without slip is kinematics, and no length of step may show. Speeds keep their ratio, so the whole trip lies
+// on one circle.
 TEST(World, ArcsDoNotDependOnTheStep) {
   // The axle leans by dR / b = 3e-4; its square changes the distance of the contact points.
   constexpr double kLeanSquared = 1e-7;
   RobotModel robot = labmate();
   robot.wheels[1].radius_m = 0.0751;
   const double side_m = -0.07505 * 0.0001 / 0.340;
-  for (const double step_s : {0.010, 0.005, 0.001}) {
+  for (const double step_s : {0.020, 0.010, 0.001}) {
     for (const double right_radps : {2.5, 2.8}) {
       PhysicsOptions options;
       options.step_s = step_s;
@@ -143,8 +143,8 @@ TEST(World, MirroredRobotDrivesTheMirrorImage) {
     }
     EXPECT_LE(worst, kMirror);
     EXPECT_GT(std::abs(world.pose().theta_rad), 0.1);
-    std::cout << "mirror images, friction " << floor.friction << ": differ by " << worst << ", slipping or saturated in "
-              << world.cost().newton_steps << " of " << world.cost().steps << " steps\n";
+    std::cout << "mirror images, friction " << floor.friction << ": differ by " << worst
+              << ", slipping or saturated in " << world.cost().newton_steps << " of " << world.cost().steps << " steps\n";
   }
 }
 
@@ -188,9 +188,11 @@ TEST(World, NonFiniteStateStopsTheRun) {
         << e.what();
   }
   World absurd = placed(labmate(), {}, {}, 1e300);
-  absurd.command(1e200, -1e200);
-  EXPECT_THROW(
-      for (int i = 0; i < 100; ++i) absurd.advance(0.02), RunError);
+  absurd.command(1e60, -1e60);
+  const auto run = [&] {
+    for (int i = 0; i < 100; ++i) absurd.advance(0.02);
+  };
+  EXPECT_THROW(run(), RunError);
 }
 
 }  // namespace

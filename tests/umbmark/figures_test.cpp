@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <iostream>
 
@@ -69,9 +70,24 @@ TEST(Umbmark, EstimatesAreThoseOfBorensteinAndFeng) {
   EXPECT_NEAR(u.endpoint.right_factor, 2 / (1 / u.endpoint.e_d + 1), kRoundOff);
   EXPECT_NEAR(u.endpoint_y.alpha_rad, (u.cw.centroid_y_m - u.ccw.centroid_y_m) / (-4 * 4), kRoundOff);
   EXPECT_NEAR(u.endpoint_y.beta_rad, (u.cw.centroid_y_m + u.ccw.centroid_y_m) / (-4 * 4), kRoundOff);
-  // Both forms agree to first order: alpha and beta are about 0.01, so to 1e-4 times a few.
-  EXPECT_NEAR(u.endpoint_y.alpha_rad, u.heading.alpha_rad, 1e-3);
-  EXPECT_NEAR(u.endpoint.beta_rad, u.heading.beta_rad, 1e-3);
+}
+
+// The end-point form is a small-angle approximation: errors ten times smaller, differences a hundred times smaller.
+TEST(Umbmark, EndpointFormsAgreeWithTheHeadingsToFirstOrder) {
+  constexpr double kSecondOrder = 70;  // of 100; the third order is some per cent of the second
+  const auto differences = [](double size) {
+    const Umbmark u = umbmark(squares(TrueRobot::with(1 + 0.0004 * size, 1 + 0.001 * size), nominal_odometry()),
+                              nominal_odometry());
+    return std::array{std::abs(u.endpoint.alpha_rad - u.heading.alpha_rad),
+                      std::abs(u.endpoint.beta_rad - u.heading.beta_rad),
+                      std::abs(u.endpoint_y.alpha_rad - u.heading.alpha_rad),
+                      std::abs(u.endpoint_y.beta_rad - u.heading.beta_rad)};
+  };
+  const auto small = differences(1), large = differences(10);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_GT(large[i] / small[i], kSecondOrder) << i;
+    EXPECT_LT(small[i], 1e-4);
+  }
 }
 
 TEST(Umbmark, TypeAIsTheWheelbaseTypeBTheDiameters) {

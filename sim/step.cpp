@@ -1,0 +1,117 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "sim/world_state.h"
+
+namespace umbsim {
+namespace {
+
+// Degrees of freedom at compile time where they are the usual ones.
+constexpr int kBase = 6;
+constexpr int kBaseAndWheels = 8;
+
+}  // namespace
+
+void World::State::step(double step_s, const std::array<double, 2>& target_radps) {
+  DofVector u = body.free_velocity(step_s);
+  if (!step_with_holding_motors(step_s, target_radps, u)) step_with_motor_rows(step_s, target_radps, u);
+  count(report);
+  note_loads(step_s);
+  body.set_velocity(u);
+  body.integrate(step_s);
+  track_heading();
+  ++cost.steps;
+  cost.simulated_s += step_s;
+  check_finite();
+}
+
+// Nearly always both motors can hold their set-points: the wheel speeds are then known, and the contacts act on a
+// robot whose wheels cannot give. Exact if the motor impulses that follow are within their limits; otherwise u is as it was.
+bool World::State::step_with_holding_motors(double step_s, const std::array<double, 2>& target_radps, DofVector& u) {
+  const HeldMotors* held = body.held_motors();
+  if (!held) return false;
+  const Eigen::Vector2d change(target_radps[0] - u[6], target_radps[1] - u[7]);
+  DofVector v = u + held->gain.lazyProduct(change);
+  add_contacts(step_s, v);
+  assemble<kBase>(held->inverse_mass.data(), kBase, kBaseAndWheels);
+  solve();
+
+  Eigen::Vector2d motor = held->inertia * change;
+  for (int i = 0; i < rows; ++i) motor -= held->gain.transpose().lazyProduct(row[i]) * impulses[i];
+  const double limit = drivetrain.torque_limit_nm * step_s;
+  if (motor.cwiseAbs().maxCoeff() > limit) return false;
+  for (int i = 0; i < rows; ++i) v.head<kBase>() += response[i].head<kBase>() * impulses[i];
+  u = v;
+  return true;
+}
+
+void World::State::step_with_motor_rows(double step_s, const std::array<double, 2>& target_radps, DofVector& u) {
+  add_contacts(step_s, u);
+  for (int i = 0; i < 2; ++i) add_motor(i, target_radps[i], step_s, u);
+  const DofMatrix& M_inverse = body.inverse_mass();
+  const int dofs = body.dofs();
+  if (dofs == kBaseAndWheels) assemble<kBaseAndWheels>(M_inverse.data(), dofs, dofs);
+  else assemble<Eigen::Dynamic>(M_inverse.data(), dofs, dofs);
+  solve();
+  for (int i = 0; i < rows; ++i) u += response[i] * impulses[i];
+}
+
+void World::State::add_motor(int wheel, double target_radps, double step_s, const DofVector& u) {
+  problem.motor[problem.motors++] = {rows, drivetrain.torque_limit_nm * step_s};
+  row[rows] = DofVector::Unit(body.dofs(), 6 + wheel);
+  compliance[rows] = 0;
+  problem.b[rows] = u[6 + wheel] - target_radps;
+  ++rows;
+}
+
+// A = J M^-1 J^T + compliance, over the first N degrees of freedom. M_inverse is symmetric: its layout does not matter.
+template <int N>
+void World::State::assemble(const double* M_inverse, int dofs, int stride) {
+  using Vector = Eigen::Matrix<double, N, 1, 0, N == Eigen::Dynamic ? kMaxDofs : N, 1>;
+  using Matrix = Eigen::Matrix<double, N, N>;
+  const auto at = [dofs](DofVector& v) { return Eigen::Map<Vector>(v.data(), dofs); };
+  const Eigen::Map<const Matrix, 0, Eigen::OuterStride<>> M(M_inverse, dofs, dofs, Eigen::OuterStride<>(stride));
+  problem.A.resize(rows, rows);
+  for (int i = 0; i < rows; ++i) {
+    response[i].resize(body.dofs());
+    at(response[i]).noalias() = M.lazyProduct(at(row[i]));
+    for (int j = 0; j <= i; ++j) problem.A(i, j) = problem.A(j, i) = at(row[j]).dot(at(response[i]));
+    problem.A(i, i) += compliance[i];
+  }
+}
+
+void World::State::solve() {
+  problem.b.conservativeResize(rows);
+  report = solve_contacts(problem, impulses);
+}
+
+void World::State::count(const SolveReport& done) {
+  cost.newton_steps += done.outcome != SolveOutcome::stick;
+  cost.solver_fallbacks += done.outcome == SolveOutcome::fallback;
+}
+
+void World::State::note_loads(double step_s) {
+  loads = {};
+  for (int i = 0; i < problem.contacts; ++i) {
+    const int support = contact_support[i];
+    double& load = support < 2 ? loads.wheel_n[support] : loads.caster_n[support - 2];
+    load += impulses[problem.contact[i].normal] / step_s;
+  }
+}
+
+void World::State::track_heading() {
+  const double raw = std::atan2(body.rotation()(1, 0), body.rotation()(0, 0));
+  heading_rad += wrap_angle(raw - heading_rad);
+}
+
+void World::State::check_finite() const {
+  const DofVector& u = body.velocity();
+  if (u.allFinite() && body.position().allFinite()) return;
+  std::string which = u.head<6>().allFinite() ? "a wheel or caster" : "the base";
+  throw RunError(fmt::format("{}: the state became non-finite after {:.3f} simulated seconds, in {}", robot.urdf,
+                             cost.simulated_s, which));
+}
+
+}  // namespace umbsim

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "sim/contact_solver.h"
+#include "sim/multibody.h"
+#include "sim/world.h"
+
+namespace umbsim {
+
+/// A wheel, ball or caster wheel that may touch the floor.
+struct Support {
+  int joint = -1;       // -1: a ball fixed to the base
+  Eigen::Vector3d centre_m;    // base frame, of a fixed ball
+  double radius_m = 0;
+  bool disc = false;
+  double friction_scale = 0;  // times the floor's; balls have a coefficient of their own
+  double own_friction = 0;
+  std::string name;
+  // Compliance along the normal; stiffness 0 stands for rigid.
+  double sink_m = 0;
+  double stiffness_npm = 0;
+  double damping_nspm = 0;
+};
+
+/// Everything that a world holds. world.cpp: the interface; step.cpp: one time step; contact_rows.cpp: what touches;
+/// placing.cpp: how the robot is set down.
+struct World::State {
+  RobotModel robot;
+  Drivetrain drivetrain;
+  Floor floor;
+  PhysicsOptions options;
+  MultiBody body;
+  std::vector<Support> supports;
+  SupportLoads loads;
+  PhysicsCost cost;
+  std::array<double, 2> command_radps{};
+  std::array<double, 2> last_command_radps{};
+  std::array<double, 2> zero_angle_rad{};
+  double heading_rad = 0;
+
+  // Rows of the current step: each is J_i, with response M^-1 J_i^T, and a compliance on the diagonal (velocity per
+  // impulse).
+  ContactProblem problem;
+  DofVector row[kMaxRows];
+  DofVector response[kMaxRows];
+  double compliance[kMaxRows]{};
+  int rows = 0;
+  int contact_support[8]{};
+  RowVector impulses;
+  SolveReport report;
+
+  State(const RobotModel& r, const Drivetrain& d, const Floor& f, const PhysicsOptions& o);
+
+  RollingShape shape(const Support& s) const;
+  void step(double step_s, const std::array<double, 2>& target_radps);
+  bool step_with_holding_motors(double step_s, const std::array<double, 2>& target_radps, DofVector& u);
+  void step_with_motor_rows(double step_s, const std::array<double, 2>& target_radps, DofVector& u);
+
+  void add_contacts(double step_s, const DofVector& u);
+  void add_contact(int support, const NearestPoint& nearest, double step_s, const DofVector& u);
+  void add_motor(int wheel, double target_radps, double step_s, const DofVector& u);
+  template <int N>
+  void assemble(const double* M_inverse, int dofs, int stride);
+  void solve();
+  void count(const SolveReport& report);
+  void note_loads(double step_s);
+
+  void place_on_floor(const Pose2& X_WB);
+  void soften();
+  void check_loads() const;
+  void check_finite() const;
+  bool near_cable() const;
+  void track_heading();
+};
+
+/// Speed that a newton leaves between two surfaces in "rigid" contact. It makes the problem regular (the lateral
+/// friction of both wheels lies on one line); at 100 N it is 0.1 um/s.
+constexpr double kMobility = 1e-9;  // m/s per N
+
+}  // namespace umbsim
