@@ -108,7 +108,7 @@ Rig rig_for(const Scenario& s, const RobotModel& nominal, const RunSpec& spec) {
   rig.encoders = s.encoders;
   rig.floor.friction = s.floor_friction;
   rig.run = {spec.id, spec.number, s.seed};
-  rig.drivetrain.torque_limit_nm = torque_limit(s, nominal);
+  rig.drivetrain = Drivetrain(torque_limit(s, nominal));
   if (spec.bumped) rig.floor.cables = s.bumps.fixed;
   rig.floor.ripples =
       random_ripples(s.noise.floor_rms_m, s.noise.floor_wavelength_m, s.seed, std::uint64_t(spec.number));

@@ -8,6 +8,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+// Share of the robot's weight below which a wheel's creep no longer grows.
+constexpr double kLeastLoad = 0.02;
 constexpr double kSpeculative_m = 0.001;  // contacts this far ahead are watched, beyond what the step can travel
 
 }  // namespace
@@ -30,6 +32,7 @@ void World::State::add_contacts(double step_s, const DofVector& u) {
       }
     }
   }
+  add_spin_friction(u, step_s);
 }
 
 // Unilateral row. A gap may close within the step but not become negative. In contact the row is a spring and damper
@@ -41,9 +44,9 @@ void World::State::add_contact(int support, const NearestPoint& nearest, double 
   const Vector3d normal = R_BW * nearest.normal;
   const Joint hinge = s.joint >= 0 ? body.current(s.joint) : Joint{-1, s.centre_m, Vector3d::UnitY()};
   const Vector3d& axis = hinge.axis;
-  const Vector3d lever = -s.radius_m * (s.disc ? (normal - axis * axis.dot(normal)).normalized() : normal);
-  const Vector3d rim = hinge.pivot_m + lever;
-  const double friction = s.friction_scale * floor.friction + s.own_friction;
+  const Vector3d towards = s.disc ? Vector3d((axis * axis.dot(normal) - normal).normalized()) : Vector3d(-normal);
+  const Vector3d rim = rim_centre(s, hinge) + rolling_radius(s) * towards;
+  const double friction = s.friction_scale * friction_at(floor, nearest.point_m.x(), nearest.point_m.y()) + s.own_friction;
   problem.contact[problem.contacts] = {rows, friction};
   contact_support[problem.contacts++] = support;
 
@@ -57,9 +60,41 @@ void World::State::add_contact(int support, const NearestPoint& nearest, double 
   if (friction <= 0) return;
   const Vector3d along = axis.cross(normal).normalized();
   const Vector3d across = normal.cross(along);
-  for (const Vector3d& direction : {along, across}) {
+  const TyreSlip slip = tyre_slip(s);
+  const double creep[2] = {slip.along, slip.across};
+  const Vector3d surface = R_BW * slip.surface_mps;
+  for (int i = 0; i < 2; ++i) {
+    const Vector3d& direction = i == 0 ? along : across;
     body.jacobian(s.joint, rim, direction, row[rows]);
-    compliance[rows] = kMobility / step_s;
+    compliance[rows] = (kMobility + creep[i]) / step_s;
+    problem.b[rows] = row[rows].dot(u) - surface.dot(direction);
+    ++rows;
+  }
+}
+
+// Creep before sliding is a speed proportional to rolling speed and traction ratio: slip = C v F / N (linear theory,
+// e.g. Johnson, Contact Mechanics, 8.3), hence a compliance C v / N of the friction rows. Carpet moves under a rolling
+// wheel in proportion to the distance rolled.
+TyreSlip World::State::tyre_slip(const Support& s) const {
+  if (s.wheel < 0) return {};
+  const Wheel& w = robot.wheels[s.wheel];
+  const double speed = std::abs(body.velocity()[6 + s.wheel]) * w.radius_m;
+  const double load_n = std::max(load(s), kLeastLoad * robot.total_mass_kg() * options.gravity_mps2);
+  return {w.creep_along * speed / load_n, w.creep_across * speed / load_n,
+          {speed * floor.drift_x, speed * floor.drift_y, 0}};
+}
+
+// A contact of width w resists turning on the spot with the moment mu N w / 4 (uniform pressure along a line).
+void World::State::add_spin_friction(const DofVector& u, double step_s) {
+  for (int i = 0; i < problem.contacts; ++i) {
+    const ContactRows& c = problem.contact[i];
+    const Support& s = supports[contact_support[i]];
+    if (s.wheel < 0 || robot.wheels[s.wheel].patch_width_m == 0) continue;
+    const double limit = c.friction * load(s) * robot.wheels[s.wheel].patch_width_m / 4 * step_s;
+    problem.motor[problem.motors++] = {rows, limit};
+    row[rows] = DofVector::Zero(body.dofs());
+    row[rows].head<3>() = row[c.normal].segment<3>(3);  // the contact's normal
+    compliance[rows] = 0;
     problem.b[rows] = row[rows].dot(u);
     ++rows;
   }

@@ -55,7 +55,8 @@ bool all_stick_holds(const ContactProblem& p, const RowVector& x) {
     }
   }
   for (int i = 0; i < p.motors; ++i) {
-    if (std::abs(x[p.motor[i].row]) > p.motor[i].limit) return false;
+    const BoundedRow& m = p.motor[i];
+    if (x[m.row] > m.limit || x[m.row] < m.lower_share * m.limit) return false;
   }
   return true;
 }
@@ -77,8 +78,9 @@ struct Projection {
   void motor_row(const BoundedRow& m, const RowVector& x, const RowVector& w, RowVector& F, RowMatrix* jac) const {
     const double r = 1 / p.A(m.row, m.row);
     const double y = x[m.row] - r * w[m.row];
-    const bool inside = std::abs(y) <= m.limit;
-    F[m.row] = x[m.row] - std::clamp(y, -m.limit, m.limit);
+    const double lower = m.lower_share * m.limit;
+    const bool inside = y >= lower && y <= m.limit;
+    F[m.row] = x[m.row] - std::clamp(y, lower, m.limit);
     if (!jac) return;
     jac->row(m.row).setZero();
     if (inside) jac->row(m.row) = r * p.A.row(m.row);
@@ -174,7 +176,8 @@ void gauss_seidel(const ContactProblem& p, RowVector& x) {
     }
     for (int i = 0; i < p.motors; ++i) {
       const int row = p.motor[i].row;
-      set(row, std::clamp(x[row] - velocity(row) / p.A(row, row), -p.motor[i].limit, p.motor[i].limit));
+      const double limit = p.motor[i].limit;
+      set(row, std::clamp(x[row] - velocity(row) / p.A(row, row), p.motor[i].lower_share * limit, limit));
     }
     if (change <= kTolerance * scale(x)) return;
   }

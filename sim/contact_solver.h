@@ -4,8 +4,8 @@
 
 namespace umbsim {
 
-/// Rows that the solver can hold: eight supports with friction, and two motors.
-constexpr int kMaxRows = 26;
+/// Rows that the solver can hold: eight contacts with friction, and eight bounded rows.
+constexpr int kMaxRows = 32;
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kMaxRows, kMaxRows>;
 using RowVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRows, 1>;
 
@@ -15,10 +15,11 @@ struct ContactRows {
   double friction = 0;  ///< 0: the contact has no friction rows
 };
 
-/// A row whose impulse is bounded: a motor.
+/// A row whose impulse is bounded: a motor, or the friction of a turning contact patch.
 struct BoundedRow {
   int row = 0;
-  double limit = 0;  ///< |impulse| <= limit
+  double limit = 0;
+  double lower_share = -1;  ///< lower_share * limit <= impulse <= limit; 0: it can only push
 };
 
 /// One time step's contact problem. Find impulses x with w = A x + b such that
@@ -33,7 +34,7 @@ struct ContactProblem {
   int contacts = 0;
   ContactRows contact[8];
   int motors = 0;
-  BoundedRow motor[2];
+  BoundedRow motor[8];
 };
 
 enum class SolveOutcome {

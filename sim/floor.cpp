@@ -21,6 +21,14 @@ Vector3d in_plane(const Vector3d& axis, const Vector3d& towards) {
 
 }  // namespace
 
+double friction_at(const Floor& floor, double x_m, double y_m) {
+  double friction = floor.friction;
+  for (const FrictionPatch& p : floor.patches) {
+    if (std::hypot(x_m - p.x_m, y_m - p.y_m) < p.radius_m) friction = p.friction;
+  }
+  return friction;
+}
+
 FloorPoint floor_at(const Floor& floor, double x_m, double y_m) {
   FloorPoint at;
   for (const Ripple& r : floor.ripples) {

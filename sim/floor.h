@@ -24,12 +24,27 @@ struct Ripple {
   double phase_rad = 0;
 };
 
+/// A disc on the floor with a friction of its own.
+struct FrictionPatch {
+  double x_m = 0;
+  double y_m = 0;
+  double radius_m = 0;
+  double friction = 0;
+};
+
 /// The floor as data: a smooth height field, friction, and what lies on it.
 struct Floor {
   double friction = 0.9;        ///< Coulomb coefficient between floor and wheels
   std::vector<Ripple> ripples;  ///< empty: flat
   std::vector<Cable> cables;
+  std::vector<FrictionPatch> patches;  ///< the last one that covers a place counts
+  double slope_rad = 0;                ///< tilt against gravity
+  double downhill_rad = 0;             ///< floor-frame direction in which it falls
+  double drift_x = 0;                  ///< carpet: metres sideways per metre that a wheel rolls, floor frame
+  double drift_y = 0;
 };
+
+double friction_at(const Floor& floor, double x_m, double y_m);
 
 /// Height and slope of the floor at one place.
 struct FloorPoint {

@@ -71,7 +71,7 @@ struct MultiBody::Part {
   }
 };
 
-MultiBody::MultiBody(const RobotModel& robot, double gravity_mps2) : robot_(robot), gravity_mps2_(gravity_mps2) {
+MultiBody::MultiBody(const RobotModel& robot) : robot_(robot) {
   int links = 2;
   for (const Caster& caster : robot.casters) links += caster.swivels ? 2 : 0;
   constant_mass_ = links == 2;
@@ -87,14 +87,19 @@ MultiBody::MultiBody(const RobotModel& robot, double gravity_mps2) : robot_(robo
   body_->setAngularDamping(0);
   body_->setUseGyroTerm(true);
   body_->setMaxCoordinateVelocity(1e6);
-  body_->addBaseForce(btVector3(0, 0, -gravity_mps2 * base.mass_kg));
-  for (int i = 0; i < links; ++i) body_->addLinkForce(i, btVector3(0, 0, -gravity_mps2 * link_mass_[i]));
   inverse_mass_.resize(dofs(), dofs());
   u_ = DofVector::Zero(dofs());
   set_pose(Quaterniond::Identity(), Vector3d::Zero());
   if (!constant_mass_) return;
   compute_inverse_mass();
   compute_held_motors();
+}
+
+void MultiBody::set_gravity(const Vector3d& gravity_mps2) {
+  gravity_mps2_ = gravity_mps2;
+  body_->clearForcesAndTorques();
+  body_->addBaseForce(to_bullet(gravity_mps2 * robot_.base.mass_kg));
+  for (std::size_t i = 0; i < joints_.size(); ++i) body_->addLinkForce(int(i), to_bullet(gravity_mps2 * link_mass_[i]));
 }
 
 void MultiBody::build_wheels(const RobotModel& robot) {
@@ -171,7 +176,7 @@ DofVector MultiBody::free_velocity_articulated(double step_s) {
 // spinning wheels, -w x (I w) and -m w x (w x r). A body of revolution feels none about its own axis.
 DofVector MultiBody::gyroscopic_and_weight() const {
   const Vector3d w = u_.head<3>();
-  const Vector3d gravity = -gravity_mps2_ * R_WB_.row(2).transpose();
+  const Vector3d gravity = R_WB_.transpose() * gravity_mps2_;
   Vector3d torque = -w.cross(robot_.base.inertia_kgm2 * w);
   Vector3d force = robot_.base.mass_kg * gravity;
   for (int i = 0; i < 2; ++i) {
@@ -264,11 +269,11 @@ double MultiBody::energy() {
   velocity.resize(body_->getNumLinks() + 1);
   body_->compTreeLinkVelocities(&omega[0], &velocity[0]);
   double kinetic = body_->getBaseMass() * velocity[0].length2() + omega[0].dot(body_->getBaseInertia() * omega[0]);
-  double potential = body_->getBaseMass() * gravity_mps2_ * body_->getBasePos().z();
+  double potential = -body_->getBaseMass() * gravity_mps2_.dot(to_eigen(body_->getBasePos()));
   for (int i = 0; i < body_->getNumLinks(); ++i) {
     const btMultibodyLink& link = body_->getLink(i);
     kinetic += link.m_mass * velocity[i + 1].length2() + omega[i + 1].dot(link.m_inertiaLocal * omega[i + 1]);
-    potential += link.m_mass * gravity_mps2_ * body_->localPosToWorld(i, btVector3(0, 0, 0)).z();
+    potential -= link.m_mass * gravity_mps2_.dot(to_eigen(body_->localPosToWorld(i, btVector3(0, 0, 0))));
   }
   return kinetic / 2 + potential;
 }

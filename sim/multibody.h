@@ -36,7 +36,10 @@ struct Joint {
 /// resolved in the base frame.
 class MultiBody {
  public:
-  MultiBody(const RobotModel& robot, double gravity_mps2);
+  explicit MultiBody(const RobotModel& robot);
+
+  /// World frame.
+  void set_gravity(const Eigen::Vector3d& gravity_mps2);
 
   int dofs() const { return 6 + int(joints_.size()); }
   const std::vector<Joint>& joints() const { return joints_; }
@@ -94,7 +97,7 @@ class MultiBody {
   std::unique_ptr<btMultiBody> body_;
   Eigen::Matrix3d R_BK_;  ///< principal axes K of the base, Bullet's base frame
   Eigen::Vector3d com_B_;
-  double gravity_mps2_;
+  Eigen::Vector3d gravity_mps2_ = Eigen::Vector3d::Zero();
   bool constant_mass_ = true;
   DofMatrix inverse_mass_;
   HeldMotors held_;

@@ -49,12 +49,17 @@ void World::State::place_on_floor(const Pose2& X_WB) {
 // Gives every support the spring and damper that sinks by the stated amount under its load at rest on a flat floor.
 void World::State::soften() {
   const double sink_m = options.softness.static_sink_m;
-  if (sink_m <= 0) return;
+  if (sink_m <= 0) {
+    set_gravity();
+    return;
+  }
   Floor flat;
   std::swap(floor, flat);
+  set_gravity();
   place_on_floor({});
   for (int i = 0; i < 3; ++i) step(options.fine_step_s, {0, 0});
   std::swap(floor, flat);
+  set_gravity();
   for (std::size_t i = 0; i < supports.size(); ++i) {
     const double load = std::max(i < 2 ? loads.wheel_n[i] : loads.caster_n[i - 2],
                                  0.05 * robot.total_mass_kg() * options.gravity_mps2);

@@ -24,10 +24,17 @@ struct Wheel {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitY();  ///< of rotation; turning about +y rolls forward
   double radius_m = 0;
   double width_m = 0;          ///< of the collision cylinder; 0 for a sphere
+  double eccentricity_m = 0;   ///< of the rim's centre from the axle
+  double eccentricity_rad = 0; ///< where it points at wheel angle 0: 0 forward, growing as the wheel rolls forward
   double mass_kg = 0;
   double spin_inertia_kgm2 = 0;       ///< about the axis
   double transverse_inertia_kgm2 = 0; ///< about a diameter
   double effort_limit_nm = 0;  ///< from the URDF's <limit>; 0 if it gives none
+  // How the tyre meets the floor; all zero: a hard thin disc.
+  double compliance_mpn = 0;     ///< loss of rolling radius per newton of load
+  double creep_along = 0;        ///< slip per traction ratio (F/N) before sliding, rolling direction
+  double creep_across = 0;       ///< the same sideways
+  double patch_width_m = 0;      ///< of the contact, for its friction against turning on the spot
 };
 
 /// A support that is not driven: a fixed ball, or a wheel that swivels about an upright axis.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -16,11 +17,14 @@ constexpr int kBaseAndWheels = 8;
 
 void World::State::step(double step_s, const std::array<double, 2>& target_radps) {
   DofVector u = body.free_velocity(step_s);
+  add_pushes(step_s, u);
   if (!step_with_holding_motors(step_s, target_radps, u)) step_with_motor_rows(step_s, target_radps, u);
   count(report);
   note_loads(step_s);
   body.set_velocity(u);
   body.integrate(step_s);
+  move_shafts(step_s, target_radps);
+  time_s += step_s;
   track_heading();
   ++cost.steps;
   cost.simulated_s += step_s;
@@ -31,17 +35,19 @@ void World::State::step(double step_s, const std::array<double, 2>& target_radps
 // robot whose wheels cannot give. Exact if the motor impulses that follow are within their limits; otherwise u is as it was.
 bool World::State::step_with_holding_motors(double step_s, const std::array<double, 2>& target_radps, DofVector& u) {
   const HeldMotors* held = body.held_motors();
-  if (!held) return false;
+  const auto& motor = drivetrain.motor;
+  if (!held || motor[0].backlash_rad > 0 || motor[1].backlash_rad > 0) return false;
   const Eigen::Vector2d change(target_radps[0] - u[6], target_radps[1] - u[7]);
   DofVector v = u + held->gain.lazyProduct(change);
   add_contacts(step_s, v);
   assemble<kBase>(held->inverse_mass.data(), kBase, kBaseAndWheels);
   solve();
 
-  Eigen::Vector2d motor = held->inertia * change;
-  for (int i = 0; i < rows; ++i) motor -= held->gain.transpose().lazyProduct(row[i]) * impulses[i];
-  const double limit = drivetrain.torque_limit_nm * step_s;
-  if (motor.cwiseAbs().maxCoeff() > limit) return false;
+  Eigen::Vector2d impulse = held->inertia * change;
+  for (int i = 0; i < rows; ++i) impulse -= held->gain.transpose().lazyProduct(row[i]) * impulses[i];
+  for (int i = 0; i < 2; ++i) {
+    if (std::abs(impulse[i]) > motor[i].torque_limit_nm * step_s) return false;
+  }
   for (int i = 0; i < rows; ++i) v.head<kBase>() += response[i].head<kBase>() * impulses[i];
   u = v;
   return true;
@@ -49,7 +55,10 @@ bool World::State::step_with_holding_motors(double step_s, const std::array<doub
 
 void World::State::step_with_motor_rows(double step_s, const std::array<double, 2>& target_radps, DofVector& u) {
   add_contacts(step_s, u);
-  for (int i = 0; i < 2; ++i) add_motor(i, target_radps[i], step_s, u);
+  for (int i = 0; i < 2; ++i) {
+    if (drivetrain.motor[i].backlash_rad > 0) add_backlash(i, target_radps[i], step_s, u);
+    else if (drivetrain.motor[i].torque_limit_nm > 0) add_motor(i, target_radps[i], step_s, u);
+  }
   const DofMatrix& M_inverse = body.inverse_mass();
   const int dofs = body.dofs();
   if (dofs == kBaseAndWheels) assemble<kBaseAndWheels>(M_inverse.data(), dofs, dofs);
@@ -59,11 +68,56 @@ void World::State::step_with_motor_rows(double step_s, const std::array<double, 
 }
 
 void World::State::add_motor(int wheel, double target_radps, double step_s, const DofVector& u) {
-  problem.motor[problem.motors++] = {rows, drivetrain.torque_limit_nm * step_s};
+  problem.motor[problem.motors++] = {rows, drivetrain.motor[wheel].torque_limit_nm * step_s};
   row[rows] = DofVector::Unit(body.dofs(), 6 + wheel);
   compliance[rows] = 0;
   problem.b[rows] = u[6 + wheel] - target_radps;
   ++rows;
+}
+
+// Two one-sided rows: the motor's shaft can push the wheel only at either end of the play.
+void World::State::add_backlash(int wheel, double target_radps, double step_s, const DofVector& u) {
+  const Motor& m = drivetrain.motor[wheel];
+  const double play_rad = shaft_rad[wheel] - body.joint_angle(wheel);
+  for (const double side : {1.0, -1.0}) {
+    const double room_rad = m.backlash_rad / 2 - side * play_rad;
+    problem.motor[problem.motors++] = {rows, m.torque_limit_nm * step_s, 0};
+    row[rows] = DofVector::Unit(body.dofs(), 6 + wheel) * side;
+    compliance[rows] = 0;
+    problem.b[rows] = side * (u[6 + wheel] - target_radps) + room_rad / step_s;
+    ++rows;
+  }
+}
+
+// The shaft turns at its set-point; where the wheel cannot follow, the end of the play stops it.
+void World::State::move_shafts(double step_s, const std::array<double, 2>& target_radps) {
+  for (int i = 0; i < 2; ++i) {
+    const double half = drivetrain.motor[i].backlash_rad / 2;
+    const double angle_rad = body.joint_angle(i);
+    shaft_rad[i] = std::clamp(shaft_rad[i] + target_radps[i] * step_s, angle_rad - half, angle_rad + half);
+  }
+}
+
+// Set-points at `part` of the control period: the ramp to the new command, behind gain, deadband and lag.
+std::array<double, 2> World::State::follow_commands(double step_s, double part) {
+  for (int i = 0; i < 2; ++i) {
+    const Motor& m = drivetrain.motor[i];
+    double wanted = m.gain * ((1 - part) * last_command_radps[i] + part * command_radps[i]);
+    if (std::abs(wanted) < m.deadband_radps) wanted = 0;
+    const double follow = m.lag_s > 0 ? 1 - std::exp(-step_s / m.lag_s) : 1;
+    set_point_radps[i] += follow * (wanted - set_point_radps[i]);
+  }
+  return set_point_radps;
+}
+
+void World::State::add_pushes(double step_s, DofVector& u) {
+  for (const Push& p : pushes) {
+    const double overlap_s = std::min(time_s + step_s, p.time_s + p.duration_s) - std::max(time_s, p.time_s);
+    if (overlap_s <= 0) continue;
+    DofVector force;
+    body.jacobian(-1, {p.ahead_m, 0, p.height_m}, {std::cos(p.direction_rad), std::sin(p.direction_rad), 0}, force);
+    u += body.inverse_mass().lazyProduct(force) * (p.impulse_ns * overlap_s / p.duration_s);
+  }
 }
 
 // A = J M^-1 J^T + compliance, over the first N degrees of freedom. M_inverse is symmetric: its layout does not matter.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "core/error.h"
 #include "sim/world_state.h"
 
@@ -18,14 +20,14 @@ std::vector<Support> supports_of(const RobotModel& robot, const MultiBody& body)
   std::vector<Support> supports;
   for (int i = 0; i < 2; ++i) {
     const Wheel& w = robot.wheels[i];
-    supports.push_back({i, w.centre_m, w.radius_m, true, 1, 0, i == 0 ? "left wheel" : "right wheel"});
+    supports.push_back({i, w.centre_m, w.radius_m, true, i, 1, 0, i == 0 ? "left wheel" : "right wheel"});
   }
   for (std::size_t i = 0; i < robot.casters.size(); ++i) {
     const Caster& c = robot.casters[i];
     if (c.swivels) {
-      supports.push_back({body.caster_wheel_joint(int(i)), c.centre_m, c.radius_m, true, 1, 0, "caster " + c.link});
+      supports.push_back({body.caster_wheel_joint(int(i)), c.centre_m, c.radius_m, true, -1, 1, 0, "caster " + c.link});
     } else {
-      supports.push_back({-1, c.centre_m, c.radius_m, false, 0, c.friction, "caster " + c.link});
+      supports.push_back({-1, c.centre_m, c.radius_m, false, -1, 0, c.friction, "caster " + c.link});
     }
   }
   return supports;
@@ -33,18 +35,39 @@ std::vector<Support> supports_of(const RobotModel& robot, const MultiBody& body)
 
 }  // namespace
 
-World::State::State(const RobotModel& r, const Drivetrain& d, const Floor& f, const PhysicsOptions& o)
-    : robot(r), drivetrain(d), floor(f), options(o), body(r, o.gravity_mps2), supports(supports_of(r, body)) {
+World::State::State(const RobotModel& r, const Drivetrain& d, const Floor& f, const PhysicsOptions& o,
+                    const std::vector<Push>& p)
+    : robot(r), drivetrain(d), floor(f), options(o), pushes(p), body(r), supports(supports_of(r, body)) {
   if (supports.size() > 8) throw InputError(robot.urdf + ": more than six casters are not supported");
   soften();
 }
 
+double World::State::load(const Support& s) const { return s.wheel < 0 ? 0 : loads.wheel_n[s.wheel]; }
+
+double World::State::rolling_radius(const Support& s) const {
+  return s.wheel < 0 ? s.radius_m : s.radius_m - robot.wheels[s.wheel].compliance_mpn * load(s);
+}
+
+// Base frame. An eccentric wheel carries its rim's centre round its axle.
+Vector3d World::State::rim_centre(const Support& s, const Joint& hinge) const {
+  if (s.wheel < 0 || robot.wheels[s.wheel].eccentricity_m == 0) return hinge.pivot_m;
+  const Wheel& w = robot.wheels[s.wheel];
+  const Vector3d forward = hinge.axis.cross(Vector3d::UnitZ()).normalized();
+  return hinge.pivot_m +
+         w.eccentricity_m * (Eigen::AngleAxisd(body.joint_angle(s.joint) + w.eccentricity_rad, hinge.axis) * forward);
+}
+
 RollingShape World::State::shape(const Support& s) const {
-  const double radius_m = s.radius_m + s.sink_m;
+  const double radius_m = rolling_radius(s) + s.sink_m;
   if (s.joint < 0) return {body.position() + body.rotation() * s.centre_m, Vector3d::Zero(), radius_m};
   const Joint at = body.current(s.joint);
-  return {body.position() + body.rotation() * at.pivot_m,
+  return {body.position() + body.rotation() * rim_centre(s, at),
           s.disc ? Vector3d(body.rotation() * at.axis) : Vector3d(Vector3d::Zero()), radius_m};
+}
+
+void World::State::set_gravity() {
+  const double down = options.gravity_mps2 * std::cos(floor.slope_rad), along = options.gravity_mps2 * std::sin(floor.slope_rad);
+  body.set_gravity({along * std::cos(floor.downhill_rad), along * std::sin(floor.downhill_rad), -down});
 }
 
 bool World::State::near_cable() const {
@@ -62,8 +85,9 @@ bool World::State::near_cable() const {
   return false;
 }
 
-World::World(const RobotModel& robot, const Drivetrain& drivetrain, const Floor& floor, const PhysicsOptions& options)
-    : state_(std::make_unique<State>(robot, drivetrain, floor, options)) {}
+World::World(const RobotModel& robot, const Drivetrain& drivetrain, const Floor& floor, const PhysicsOptions& options,
+             const std::vector<Push>& pushes)
+    : state_(std::make_unique<State>(robot, drivetrain, floor, options, pushes)) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 
@@ -72,10 +96,13 @@ void World::place(const Pose2& X_WB) {
   s.body.set_velocity(DofVector::Zero(s.body.dofs()));
   s.place_on_floor(X_WB);
   s.heading_rad = X_WB.theta_rad;
-  s.command_radps = s.last_command_radps = {};
+  s.command_radps = s.last_command_radps = s.set_point_radps = {};
+  s.time_s = -kSettle_s;
+  for (int i = 0; i < 2; ++i) s.shaft_rad[i] = s.body.joint_angle(i);
   advance(kSettle_s);
   s.check_loads();
   for (int i = 0; i < 2; ++i) s.zero_angle_rad[i] = s.body.joint_angle(i);
+  s.time_s = 0;
   s.cost = {};
 }
 
@@ -86,10 +113,7 @@ void World::advance(double duration_s) {
   const double longest_s = s.near_cable() ? s.options.fine_step_s : s.options.step_s;
   const int steps = std::max(1, int(std::ceil(duration_s / longest_s - 1e-9)));
   for (int k = 1; k <= steps; ++k) {
-    const double part = double(k) / steps;
-    std::array<double, 2> target;
-    for (int i = 0; i < 2; ++i) target[i] = (1 - part) * s.last_command_radps[i] + part * s.command_radps[i];
-    s.step(duration_s / steps, target);
+    s.step(duration_s / steps, s.follow_commands(duration_s / steps, double(k) / steps));
   }
   s.last_command_radps = s.command_radps;
 }
@@ -103,6 +127,10 @@ Pose2 World::pose() const {
 
 double World::wheel_angle(int wheel) const {
   return state_->body.joint_angle(wheel) - state_->zero_angle_rad[wheel];
+}
+double World::encoder_angle(int wheel) const {
+  if (state_->drivetrain.motor[wheel].backlash_rad == 0) return wheel_angle(wheel);
+  return state_->shaft_rad[wheel] - state_->zero_angle_rad[wheel];
 }
 double World::wheel_speed(int wheel) const { return state_->body.velocity()[6 + wheel]; }
 Vector3d World::wheel_centre(int wheel) const { return state_->shape(state_->supports[wheel]).centre_m; }

@@ -3,12 +3,14 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "core/pose2.h"
 #include "sim/drivetrain.h"
 #include "sim/floor.h"
+#include "sim/push.h"
 #include "sim/robot_model.h"
 
 namespace umbsim {
@@ -46,7 +48,8 @@ struct SupportLoads {
 /// direct contact solver (sim/contact_solver.h). Knows nothing of effects: it simulates the description it is given.
 class World {
  public:
-  World(const RobotModel& robot, const Drivetrain& drivetrain, const Floor& floor, const PhysicsOptions& options);
+  World(const RobotModel& robot, const Drivetrain& drivetrain, const Floor& floor, const PhysicsOptions& options,
+        const std::vector<Push>& pushes = {});
   ~World();
   World(World&&) noexcept;
 
@@ -67,6 +70,8 @@ class World {
   /// 0 left, 1 right; radians since `place`, relative to the base, forward positive.
   double wheel_angle(int wheel) const;
   double wheel_speed(int wheel) const;
+  /// The same angle where the encoder sits, on the motor's side of any backlash.
+  double encoder_angle(int wheel) const;
   Eigen::Vector3d wheel_centre(int wheel) const;
   /// Roll and pitch, for tests and traces.
   Eigen::Vector3d up() const;

@@ -16,6 +16,7 @@ struct Support {
   Eigen::Vector3d centre_m;    // base frame, of a fixed ball
   double radius_m = 0;
   bool disc = false;
+  int wheel = -1;             // drive wheels: 0 left, 1 right
   double friction_scale = 0;  // times the floor's; balls have a coefficient of their own
   double own_friction = 0;
   std::string name;
@@ -25,6 +26,13 @@ struct Support {
   double damping_nspm = 0;
 };
 
+/// How a rolling tyre slips before it slides.
+struct TyreSlip {
+  double along = 0;   ///< m/s per N
+  double across = 0;
+  Eigen::Vector3d surface_mps = Eigen::Vector3d::Zero();  ///< speed of the carpet under the wheel, world frame
+};
+
 /// Everything that a world holds. world.cpp: the interface; step.cpp: one time step; contact_rows.cpp: what touches;
 /// placing.cpp: how the robot is set down.
 struct World::State {
@@ -32,6 +40,7 @@ struct World::State {
   Drivetrain drivetrain;
   Floor floor;
   PhysicsOptions options;
+  std::vector<Push> pushes;
   MultiBody body;
   std::vector<Support> supports;
   SupportLoads loads;
@@ -39,6 +48,9 @@ struct World::State {
   std::array<double, 2> command_radps{};
   std::array<double, 2> last_command_radps{};
   std::array<double, 2> zero_angle_rad{};
+  std::array<double, 2> set_point_radps{};   // behind the motors' lag
+  std::array<double, 2> shaft_rad{};         // motor side of the backlash
+  double time_s = 0;                         // since place
   double heading_rad = 0;
 
   // Rows of the current step: each is J_i, with response M^-1 J_i^T, and a compliance on the diagonal (velocity per
@@ -52,16 +64,26 @@ struct World::State {
   RowVector impulses;
   SolveReport report;
 
-  State(const RobotModel& r, const Drivetrain& d, const Floor& f, const PhysicsOptions& o);
+  State(const RobotModel& r, const Drivetrain& d, const Floor& f, const PhysicsOptions& o, const std::vector<Push>& p);
 
   RollingShape shape(const Support& s) const;
+  Eigen::Vector3d rim_centre(const Support& s, const Joint& hinge) const;
+  double rolling_radius(const Support& s) const;
+  double load(const Support& s) const;
+  std::array<double, 2> follow_commands(double step_s, double part);
   void step(double step_s, const std::array<double, 2>& target_radps);
   bool step_with_holding_motors(double step_s, const std::array<double, 2>& target_radps, DofVector& u);
   void step_with_motor_rows(double step_s, const std::array<double, 2>& target_radps, DofVector& u);
 
   void add_contacts(double step_s, const DofVector& u);
   void add_contact(int support, const NearestPoint& nearest, double step_s, const DofVector& u);
+  TyreSlip tyre_slip(const Support& s) const;
+  void add_spin_friction(const DofVector& u, double step_s);
   void add_motor(int wheel, double target_radps, double step_s, const DofVector& u);
+  void add_backlash(int wheel, double target_radps, double step_s, const DofVector& u);
+  void move_shafts(double step_s, const std::array<double, 2>& target_radps);
+  void add_pushes(double step_s, DofVector& u);
+  void set_gravity();
   template <int N>
   void assemble(const double* M_inverse, int dofs, int stride);
   void solve();

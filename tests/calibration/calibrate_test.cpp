@@ -2,6 +2,7 @@
 #include "calibration/calibrate.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -65,7 +66,8 @@ TEST(Calibrate, KeepsTheMeanRadius) {
   }
 }
 
-// No closed square can see a common scale of both wheels: calibration turns it into a wheelbase that closes the squares.
+// No closed square can see a common scale of both wheels: calibration turns it into a wheelbase that closes the
+// squares.
 TEST(Calibrate, ScaleIsNotObservable) {
   TrueRobot robot = TrueRobot::with(1.003, 0.98);
   robot.left_radius_m *= 1.01;
@@ -86,7 +88,7 @@ TEST(Calibrate, NothingToCorrectChangesNothing) {
 
 TEST(Calibrate, YamlIsTheOdometryBlockOfAScenario) {
   const OdometryParameters odometry{0.0749685, 0.0750315, 0.33617, 2000};
-  const auto file = std::filesystem::path(::testing::TempDir()) / "calibrate_test_scenario.yaml";
+  const auto file = std::filesystem::path(::testing::TempDir()) / ("calibrate_" + std::to_string(getpid()) + ".yaml");
   std::ofstream(file) << "format: umbsim-scenario/1\n" << calibration_yaml(odometry, "a comment");
   const Scenario scenario = read_scenario(file.string());
   constexpr double kWritten_m = 0.6e-9;  // nine decimals

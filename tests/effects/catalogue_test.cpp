@@ -40,8 +40,8 @@ std::vector<double> numbers(const Rig& rig) {
   for (const Wheel& w : r.wheels) {
     add(w.centre_m);
     add(w.axis);
-    for (double v : {w.radius_m, w.width_m, w.mass_kg, w.spin_inertia_kgm2, w.transverse_inertia_kgm2,
-                     w.effort_limit_nm}) {
+    for (double v :
+         {w.radius_m, w.width_m, w.mass_kg, w.spin_inertia_kgm2, w.transverse_inertia_kgm2, w.effort_limit_nm}) {
       all.push_back(v);
     }
   }
@@ -134,10 +134,12 @@ TEST(WheelbaseEffect, MovesBothWheelsAndNothingElse) {
 }
 
 TEST(Effects, AreIndependentOfTheirOrderInTheFile) {
-  const Rig a = with("wheelbase: {relative: 0.01}\nwheel_radius_scale: {relative: 0.02}\n"
-                     "wheel_radius_difference: {relative: 0.003}\n");
-  const Rig b = with("wheel_radius_difference: {relative: 0.003}\nwheel_radius_scale: {relative: 0.02}\n"
-                     "wheelbase: {relative: 0.01}\n");
+  const Rig a = with(
+      "wheelbase: {relative: 0.01}\nwheel_radius_scale: {relative: 0.02}\n"
+      "wheel_radius_difference: {relative: 0.003}\n");
+  const Rig b = with(
+      "wheel_radius_difference: {relative: 0.003}\nwheel_radius_scale: {relative: 0.02}\n"
+      "wheelbase: {relative: 0.01}\n");
   EXPECT_TRUE(same_bits(numbers(a), numbers(b)));
   EXPECT_NEAR(e_d(a), 1.003, 4 * kRoundOff);
   EXPECT_NEAR(mean_radius(a), 0.075 * 1.02, kRoundOff);
@@ -158,7 +160,8 @@ void expect_refused(const std::string& yaml, const std::vector<std::string>& par
 
 TEST(Effects, BadOnesAreRefusedByName) {
   expect_refused("wheel_base: {relative: 0.1}", {"effects.yaml:1", "wheel_base", "did you mean 'wheelbase'"});
-  expect_refused("wheelbase: {relative: 0.1}\nwheelbase: {relative: 0.2}", {"effects.yaml:2", "wheelbase", "duplicate"});
+  expect_refused("wheelbase: {relative: 0.1}\nwheelbase: {relative: 0.2}",
+                 {"effects.yaml:2", "wheelbase", "duplicate"});
   expect_refused("wheelbase:\n  relative: 0.6", {"effects.yaml:2", "wheelbase.relative", "0.6", "0.5"});
   expect_refused("wheelbase:\n  relativ: 0.1", {"effects.yaml:2", "relativ", "did you mean 'relative'"});
   expect_refused("wheelbase: {relative: much}", {"wheelbase.relative", "much"});

@@ -1,7 +1,6 @@
 // Ten cables under the inner wheel on the first leg, as the extended test lays them.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <iostream>
 
@@ -25,10 +24,11 @@ TEST(TenCables, TurnEachRunByTenTimesTheClosedForm) {
   ASSERT_TRUE(r.extended && r.umbmark);
   const double cw_deg = degrees(r.extended->cw.heading_rad - r.umbmark->cw.heading_rad);
   const double ccw_deg = degrees(r.extended->ccw.heading_rad - r.umbmark->ccw.heading_rad);
-  std::cout << fmt::format("ten cables: cw {:.3f} deg, ccw {:.3f} deg, extended figure {:.3f} deg, {:.4f} per cable; "
-                           "solver fallbacks {} in {} steps\n",
-                           cw_deg, ccw_deg, degrees(r.extended->mean_abs_heading_error_rad),
-                           degrees(r.extended->per_bump_heading_error_rad), r.cost.solver_fallbacks, r.cost.steps);
+  std::cout << fmt::format(
+      "ten cables: cw {:.3f} deg, ccw {:.3f} deg, extended figure {:.3f} deg, {:.4f} per cable; "
+      "solver fallbacks {} in {} steps\n",
+      cw_deg, ccw_deg, degrees(r.extended->mean_abs_heading_error_rad), degrees(r.extended->per_bump_heading_error_rad),
+      r.cost.solver_fallbacks, r.cost.steps);
   EXPECT_NEAR(cw_deg, -kTenCables_deg, kBar_deg) << "towards the right wheel, which is inside";
   EXPECT_NEAR(ccw_deg, kTenCables_deg, kBar_deg);
   EXPECT_NEAR(degrees(r.extended->mean_abs_heading_error_rad), 11.5, 2 * kBar_deg);
@@ -41,8 +41,8 @@ TEST(TenCables, PositionDependsOnTheLegHeadingDoesNot) {
   const ExperimentResult a = run_experiment(shipped("extended_umbmark", first), 0);
   const ExperimentResult b = run_experiment(shipped("extended_umbmark", last), 0);
   const Cluster &at_first = a.extended->cw, &at_last = b.extended->cw;
-  const double moved_m = std::hypot(at_first.centroid_x_m - at_last.centroid_x_m,
-                                    at_first.centroid_y_m - at_last.centroid_y_m);
+  const double moved_m =
+      std::hypot(at_first.centroid_x_m - at_last.centroid_x_m, at_first.centroid_y_m - at_last.centroid_y_m);
   const double turned_deg = degrees(std::abs(at_first.heading_rad - at_last.heading_rad));
   std::cout << fmt::format("cables on leg 4 instead of 1: end point {:.1f} mm away, heading {:.3f} deg\n",
                            1000 * moved_m, turned_deg);

@@ -1,7 +1,6 @@
 // The default scenario with its noise: calibration must still pay, whatever the seed.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <iostream>
 
@@ -22,9 +21,9 @@ TEST(UmbmarkWithNoise, CalibrationImprovesFifteenTimesWhateverTheSeed) {
     const ExperimentResult r = run_experiment(shipped("umbmark", {fmt::format("seed={}", seed)}), 0);
     const Umbmark& u = *r.umbmark;
     const double before_mm = 1000 * u.e_max_syst_m, after_mm = 1000 * r.passes.back().umbmark.e_max_syst_m;
-    std::cout << fmt::format("seed {}: E_max {:.1f} -> {:.1f} mm in {} passes ({:.1f} times), sd cw {:.1f}, ccw {:.1f} mm\n",
-                             seed, before_mm, after_mm, r.passes.size(), before_mm / after_mm, 1000 * u.cw.sd_m,
-                             1000 * u.ccw.sd_m);
+    std::cout << fmt::format(
+        "seed {}: E_max {:.1f} -> {:.1f} mm in {} passes ({:.1f} times), sd cw {:.1f}, ccw {:.1f} mm\n", seed,
+        before_mm, after_mm, r.passes.size(), before_mm / after_mm, 1000 * u.cw.sd_m, 1000 * u.ccw.sd_m);
     EXPECT_GE(before_mm / after_mm, kImprovement) << "seed " << seed;
     EXPECT_EQ(r.cost.solver_fallbacks, 0);
     variance_mm2 += 1e6 * (u.cw.sd_m * u.cw.sd_m + u.ccw.sd_m * u.ccw.sd_m) / (2 * kSeeds);

@@ -1,7 +1,6 @@
 // The whole way in Bullet without noise: nominal robot, published example, recovery of injected errors.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <iostream>
 
@@ -59,9 +58,9 @@ TEST(LabmateExact, PublishedFiguresAndCalibration) {
   EXPECT_NEAR(1000 * u.e_max_syst_m, 311.0, kPublished_mm);
   ASSERT_FALSE(r.passes.empty());
   const double after_mm = 1000 * r.passes.back().umbmark.e_max_syst_m;
-  std::cout << fmt::format("calibrated: E_max {:.4f} mm ({} passes), recovered E_d {:+.1e}, E_b {:+.1e}, fallbacks {}\n",
-                           after_mm, r.passes.size(), u.heading.e_d - r.injected.e_d,
-                           u.heading.e_b - r.injected.e_b, r.cost.solver_fallbacks);
+  std::cout << fmt::format(
+      "calibrated: E_max {:.4f} mm ({} passes), recovered E_d {:+.1e}, E_b {:+.1e}, fallbacks {}\n", after_mm,
+      r.passes.size(), u.heading.e_d - r.injected.e_d, u.heading.e_b - r.injected.e_b, r.cost.solver_fallbacks);
   EXPECT_LE(1000 * r.passes.front().umbmark.e_max_syst_m, kCalibrated_mm) << "with the first pass";
   EXPECT_LE(after_mm, kCalibrated_mm);
   EXPECT_EQ(r.cost.solver_fallbacks, 0);

@@ -183,8 +183,8 @@ TEST(Scenario, BadSettingsAreErrors) {
 TEST(Scenario, InjectedErrorsAreThoseOfTheFile) {
   const Scenario s = shipped("labmate_exact");
   const RobotModel nominal = load_scenario_robot(s);
-  const InjectedErrors injected = injected_errors(rig_for(s, nominal, {"cw-1", Direction::cw, false, 0}),
-                                                  initial_odometry(s, nominal));
+  const InjectedErrors injected =
+      injected_errors(rig_for(s, nominal, {"cw-1", Direction::cw, false, 0}), initial_odometry(s, nominal));
   EXPECT_NEAR(injected.e_d, 1.00084, 1e-15);
   EXPECT_NEAR(injected.e_b, 336.17 / 340, 1e-15);
 }

@@ -1,12 +1,11 @@
 // The contact solver against the laws themselves, against Bullet's Dantzig solver, and against blocks on a plane.
 #include "sim/contact_solver.h"
 
+#include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
 #include <gtest/gtest.h>
 
 #include <iostream>
 #include <limits>
-
-#include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
 
 #include "tests/sim/contact_laws.h"
 
@@ -38,7 +37,7 @@ TEST(ContactLaws, CheckerSeesEveryKindOfViolation) {
   RowVector x(4);
   x << 2, -1, 0, 0.5;  // presses at 2, slides with the whole 0.5 * 2 against +x, motor within its limit
   EXPECT_LT(law_violation(p, x), kRoundOff);
-  constexpr double kWrong[][4] = {{-2, 0, 0, 0.5},  {3, -1.5, 0, 0.5}, {2, 1, 0, 0.5},   {2, -0.6, -0.8, 0.5},
+  constexpr double kWrong[][4] = {{-2, 0, 0, 0.5},   {3, -1.5, 0, 0.5}, {2, 1, 0, 0.5},  {2, -0.6, -0.8, 0.5},
                                   {2, -1.2, 0, 0.5}, {2, -1, 0, 0.2},   {2, -1, 0, 1.5}, {1, -0.5, 0, 0.5}};
   for (const auto& w : kWrong) {
     x = Eigen::Map<const Eigen::Vector4d>(w);

@@ -3,11 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <functional>
 #include <iostream>
-
-#include <Eigen/Geometry>
 
 #include "core/random.h"
 
@@ -40,8 +39,10 @@ double smallest(const std::function<double(double)>& f) {
   const double golden = (std::sqrt(5.0) - 1) / 2;
   while (b - a > 1e-10) {
     const double c = b - golden * (b - a), d = a + golden * (b - a);
-    if (f(c) < f(d)) b = d;
-    else a = c;
+    if (f(c) < f(d))
+      b = d;
+    else
+      a = c;
   }
   return f((a + b) / 2);
 }
@@ -121,13 +122,11 @@ TEST(Floor, CableNearestPointAgainstBruteForce) {
     cable.length_m = 10;
     const double yaw = random.uniform(-0.3, 0.3), lean = random.normal(0, 0.02);
     const Vector3d axis = Vector3d(-std::sin(yaw), std::cos(yaw), lean).normalized();
-    const RollingShape wheel{{random.uniform(0, 0.2), random.uniform(-0.1, 0.1), random.uniform(0.083, 0.09)}, axis,
-                             0.075};
+    const RollingShape wheel{
+        {random.uniform(0, 0.2), random.uniform(-0.1, 0.1), random.uniform(0.083, 0.09)}, axis, 0.075};
     const Vector3d along(std::cos(cable.direction_rad), std::sin(cable.direction_rad), 0);
     const Rim rim(wheel);
-    const auto distance = [&](double a) {
-      return (rim.at(a) - Vector3d(0.1, 0, 0.005)).cross(along).norm() - 0.005;
-    };
+    const auto distance = [&](double a) { return (rim.at(a) - Vector3d(0.1, 0, 0.005)).cross(along).norm() - 0.005; };
     NearestPoint nearest;
     ASSERT_TRUE(nearest_on_cable({}, cable, wheel, nearest));
     EXPECT_NEAR(nearest.distance_m, smallest(distance), kSearch_m) << "case " << k;

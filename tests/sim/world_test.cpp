@@ -144,7 +144,8 @@ TEST(World, MirroredRobotDrivesTheMirrorImage) {
     EXPECT_LE(worst, kMirror);
     EXPECT_GT(std::abs(world.pose().theta_rad), 0.1);
     std::cout << "mirror images, friction " << floor.friction << ": differ by " << worst
-              << ", slipping or saturated in " << world.cost().newton_steps << " of " << world.cost().steps << " steps\n";
+              << ", slipping or saturated in " << world.cost().newton_steps << " of " << world.cost().steps
+              << " steps\n";
   }
 }
 

@@ -26,7 +26,7 @@ TEST(Plan, DurationsAreThoseOfTrapezia) {
   const Course c;
   const Plan plan(c, Direction::ccw);
   ASSERT_EQ(plan.segments().size(), 8u);
-  const double leg_s = 4 / 0.2 + 0.2 / 0.25;                // L / v + v / a
+  const double leg_s = 4 / 0.2 + 0.2 / 0.25;  // L / v + v / a
   const double turn_s = (M_PI / 2) / 0.7 + 0.7 / 1.5;
   EXPECT_NEAR(plan.segments()[0].duration_s, leg_s, kRoundOff);
   EXPECT_NEAR(plan.segments()[1].duration_s, turn_s, kRoundOff);
@@ -164,8 +164,9 @@ TEST(Driver, ConvergesFromAnOffset) {
   EXPECT_LT(along_m, 1e-6);  // e^-20 of the offset at four per second
   const double after_one_m = tracking_error(Course{}, {{0, 0.05}, 0.1}, 20, robot);
   const double after_four_m = tracking_error(Course{}, {{0, 0.05}, 0.1}, 93, robot);
-  std::cout << "at the start 30 mm along the path: " << 1e6 * along_m << " um after 5 s; 50 mm across and 5.7 degrees: "
-            << 1e3 * after_one_m << " mm after the first leg, " << 1e3 * after_four_m << " mm after the fourth\n";
+  std::cout << "at the start 30 mm along the path: " << 1e6 * along_m
+            << " um after 5 s; 50 mm across and 5.7 degrees: " << 1e3 * after_one_m << " mm after the first leg, "
+            << 1e3 * after_four_m << " mm after the fourth\n";
   EXPECT_LT(after_one_m, 0.5 * 0.05);
   EXPECT_LT(after_four_m, 0.05 * 0.05);
   EXPECT_NEAR(robot.heading, 2 * M_PI, 0.001);

@@ -19,7 +19,7 @@ using testing::square_run;
 using testing::squares;
 using testing::TrueRobot;
 
-constexpr double kTicks_m = 1e-8;      // rounding of 1e9 ticks, over 16 m and their headings
+constexpr double kTicks_m = 1e-8;             // rounding of 1e9 ticks, over 16 m and their headings
 constexpr double kHalfLastDigit = 0.5000001;  // of a published number; the little more is for its own rounding
 
 TEST(Umbmark, PublishedExampleOfTheLabmate) {
@@ -45,9 +45,8 @@ TEST(Umbmark, FormulaBiasIsThePublishedOneAndTheHeadingFormHasNone) {
   for (const Line& line : {Line{1.00084, 336.17 / 340, 1.00089, 0.98846}, Line{1.005, 1.02, 1.00444, 1.01548},
                            Line{1.01, 1.05, 1.00698, 1.02754}}) {
     const Umbmark u = umbmark(squares(TrueRobot::with(line.e_d, line.e_b), nominal_odometry()), nominal_odometry());
-    std::cout << "true " << line.e_d << " " << line.e_b << ", endpoint form " << u.endpoint.e_d << " "
-              << u.endpoint.e_b << ", heading form off by " << u.heading.e_d - line.e_d << " "
-              << u.heading.e_b - line.e_b << "\n";
+    std::cout << "true " << line.e_d << " " << line.e_b << ", endpoint form " << u.endpoint.e_d << " " << u.endpoint.e_b
+              << ", heading form off by " << u.heading.e_d - line.e_d << " " << u.heading.e_b - line.e_b << "\n";
     EXPECT_NEAR(u.endpoint.e_d, line.endpoint_e_d, kHalfLastDigit * 1e-5);
     EXPECT_NEAR(u.endpoint.e_b, line.endpoint_e_b, kHalfLastDigit * 1e-5);
     EXPECT_NEAR(u.heading.e_d, line.e_d, kHeadingForm);
@@ -76,12 +75,11 @@ TEST(Umbmark, EstimatesAreThoseOfBorensteinAndFeng) {
 TEST(Umbmark, EndpointFormsAgreeWithTheHeadingsToFirstOrder) {
   constexpr double kSecondOrder = 70;  // of 100; the third order is some per cent of the second
   const auto differences = [](double size) {
-    const Umbmark u = umbmark(squares(TrueRobot::with(1 + 0.0004 * size, 1 + 0.001 * size), nominal_odometry()),
-                              nominal_odometry());
-    return std::array{std::abs(u.endpoint.alpha_rad - u.heading.alpha_rad),
-                      std::abs(u.endpoint.beta_rad - u.heading.beta_rad),
-                      std::abs(u.endpoint_y.alpha_rad - u.heading.alpha_rad),
-                      std::abs(u.endpoint_y.beta_rad - u.heading.beta_rad)};
+    const Umbmark u =
+        umbmark(squares(TrueRobot::with(1 + 0.0004 * size, 1 + 0.001 * size), nominal_odometry()), nominal_odometry());
+    return std::array{
+        std::abs(u.endpoint.alpha_rad - u.heading.alpha_rad), std::abs(u.endpoint.beta_rad - u.heading.beta_rad),
+        std::abs(u.endpoint_y.alpha_rad - u.heading.alpha_rad), std::abs(u.endpoint_y.beta_rad - u.heading.beta_rad)};
   };
   const auto small = differences(1), large = differences(10);
   for (int i = 0; i < 4; ++i) {
@@ -186,8 +184,7 @@ TEST(Umbmark, RealRobotToTheLastDigitGiven) {
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the recordings are not there: " << folder;
     const Recording recording = read_recording(folder);
     const RecordedRobot& r = recording.robot;
-    const Umbmark u =
-        umbmark(recording, {r.wheel_radius_m, r.wheel_radius_m, r.wheelbase_m, r.ticks_per_revolution});
+    const Umbmark u = umbmark(recording, {r.wheel_radius_m, r.wheel_radius_m, r.wheelbase_m, r.ticks_per_revolution});
     EXPECT_NEAR(1000 * u.cw.centroid_x_m, p.cw_x, kHalfLastDigit * 0.1);
     EXPECT_NEAR(1000 * u.cw.centroid_y_m, p.cw_y, kHalfLastDigit * 0.1);
     EXPECT_NEAR(degrees(u.cw.heading_rad), p.cw_heading, kHalfLastDigit * 0.01);
