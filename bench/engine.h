@@ -34,16 +34,26 @@ struct Setup {
 
 std::unique_ptr<Engine> make_ours(const Setup& setup);
 
-/// Bullet as it comes: btMultiBodyDynamicsWorld, its default sequential-impulse solver, btCylinderShape wheels.
-std::unique_ptr<Engine> make_stock_bullet(const Setup& setup, int iterations);
+/// Settings of plain Bullet. The defaults are Bullet as it comes.
+struct StockBulletOptions {
+  std::string wheel = "cylinder";     ///< cylinder | sphere (of the same radius: touches the floor in one exact point)
+  std::string solver = "sequential";  ///< sequential: impulses; direct: Dantzig's, which needs the round wheels
+  int iterations = 10;                ///< of the sequential solver, per step
+};
 
-/// MuJoCo's settings that matter for this task. The defaults are the best that `umbsim_compare --tune-mujoco` found.
+/// Plain Bullet: btMultiBodyDynamicsWorld with its own collision detection, contacts and solvers.
+std::unique_ptr<Engine> make_stock_bullet(const Setup& setup, const StockBulletOptions& options);
+
+/// MuJoCo's settings that matter here. umbsim_tune_mujoco tries them out; docs/bench.md says which were chosen.
 struct MujocoOptions {
-  std::string integrator = "Euler";     ///< Euler | RK4 | implicit
-  std::string cone = "pyramidal";       ///< pyramidal | elliptic
-  std::string wheel = "ellipsoid";      ///< cylinder | ellipsoid | sphere
-  double servo_gain = 20;               ///< velocity servo, N m s
-  double contact_time_s = 0.004;        ///< solref's time constant; at least two steps
+  std::string integrator = "Euler";   ///< Euler | RK4 | implicit
+  std::string cone = "pyramidal";     ///< pyramidal | elliptic
+  std::string wheel = "ellipsoid";    ///< cylinder | ellipsoid | sphere
+  std::string servo = "actuator";     ///< actuator: a velocity servo; damping: the same as implicit joint damping
+  double servo_gain = 20;             ///< N m s
+  double contact_time_s = 0.004;      ///< solref's time constant; at least two steps
+  double contact_damping_ratio = 1;   ///< solref's second number
+  std::string solimp = "0.99 0.999 0.0001";
   double impratio = 100;
   int noslip_iterations = 0;
 };

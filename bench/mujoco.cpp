@@ -17,20 +17,40 @@ std::string wheel_geom(const Wheel& w, const std::string& shape) {
   return fmt::format("type='cylinder' size='{} {}'", w.radius_m, w.width_m / 2);
 }
 
+// A cable is a capsule: round on top like the others' cylinder, and MuJoCo meets it with a sphere in closed form.
+std::string cable_geom(const Cable& c) {
+  return fmt::format("<geom class='floor' type='capsule' size='{} {}' pos='{} {} {}' euler='1.5707963267948966 0 {}'/>",
+                     c.height_m / 2, c.length_m / 2, c.x_m, c.y_m, c.height_m / 2, c.direction_rad - M_PI / 2);
+}
+
+std::string wheel_body(const Wheel& w, int i, const MujocoOptions& o) {
+  return fmt::format("<body pos='{} {} {}'><joint name='w{}' type='hinge' axis='0 1 0' damping='{}'/>"
+                     "<inertial pos='0 0 0' mass='{}' diaginertia='{} {} {}'/>"
+                     "<geom {} euler='1.5707963267948966 0 0'/></body>",
+                     w.centre_m.x(), w.centre_m.y(), w.centre_m.z(), i, o.servo == "damping" ? o.servo_gain : 0.0,
+                     w.mass_kg, w.transverse_inertia_kgm2, w.spin_inertia_kgm2, w.transverse_inertia_kgm2,
+                     wheel_geom(w, o.wheel));
+}
+
+std::string motor(int i, double torque_limit_nm, const MujocoOptions& o) {
+  if (o.servo == "damping") return fmt::format("<motor joint='w{}' gear='{}'/>", i, o.servo_gain);
+  return fmt::format("<velocity joint='w{}' kv='{}' forcelimited='true' forcerange='{} {}'/>", i, o.servo_gain,
+                     -torque_limit_nm, torque_limit_nm);
+}
+
+// Only pairs of floor and robot are looked at: the robot's parts cannot meet.
 std::string model_xml(const Setup& s, const MujocoOptions& o) {
   const RobotModel& r = s.robot;
   const auto diagonal = r.base.inertia_kgm2.diagonal();
   std::string xml = fmt::format(
       "<mujoco><compiler angle='radian'/>"
       "<option timestep='{}' gravity='0 0 -9.81' integrator='{}' cone='{}' impratio='{}' noslip_iterations='{}'/>"
-      "<default><geom solref='{} 1' solimp='0.99 0.999 0.0001' friction='{} 0 0' condim='3'/></default>"
-      "<worldbody><geom name='floor' type='plane' size='0 0 1' friction='{} 0 0'/>",
-      s.step_s, o.integrator, o.cone, o.impratio, o.noslip_iterations, o.contact_time_s, s.floor.friction,
-      s.floor.friction);
-  for (const Cable& c : s.floor.cables) {
-    xml += fmt::format("<geom type='cylinder' size='{} {}' pos='{} {} {}' euler='1.5707963267948966 0 {}'/>",
-                       c.height_m / 2, c.length_m / 2, c.x_m, c.y_m, c.height_m / 2, c.direction_rad - M_PI / 2);
-  }
+      "<default><geom solref='{} {}' solimp='{}' friction='{} 0 0' condim='3' contype='0' conaffinity='1'/>"
+      "<default class='floor'><geom contype='1' conaffinity='0'/></default></default>"
+      "<worldbody><geom class='floor' type='plane' size='0 0 1'/>",
+      s.step_s, o.integrator, o.cone, o.impratio, o.noslip_iterations, o.contact_time_s, o.contact_damping_ratio,
+      o.solimp, s.floor.friction);
+  for (const Cable& c : s.floor.cables) xml += cable_geom(c);
   xml += fmt::format("<body name='base' pos='0 0 {}'><freejoint/><inertial pos='{} {} {}' mass='{}' diaginertia='{} {} {}'/>",
                      r.wheels[0].radius_m, r.base.com_m.x(), r.base.com_m.y(), r.base.com_m.z(), r.base.mass_kg,
                      diagonal[0], diagonal[1], diagonal[2]);
@@ -38,25 +58,16 @@ std::string model_xml(const Setup& s, const MujocoOptions& o) {
     xml += fmt::format("<geom type='sphere' size='{}' pos='{} {} {}' condim='1' priority='1' friction='0 0 0'/>",
                        c.radius_m, c.centre_m.x(), c.centre_m.y(), c.centre_m.z());
   }
-  for (int i = 0; i < 2; ++i) {
-    const Wheel& w = r.wheels[i];
-    xml += fmt::format("<body pos='{} {} {}'><joint name='w{}' type='hinge' axis='0 1 0'/>"
-                       "<inertial pos='0 0 0' mass='{}' diaginertia='{} {} {}'/>"
-                       "<geom {} euler='1.5707963267948966 0 0'/></body>",
-                       w.centre_m.x(), w.centre_m.y(), w.centre_m.z(), i, w.mass_kg, w.transverse_inertia_kgm2,
-                       w.spin_inertia_kgm2, w.transverse_inertia_kgm2, wheel_geom(w, o.wheel));
-  }
+  for (int i = 0; i < 2; ++i) xml += wheel_body(r.wheels[i], i, o);
   xml += "</body></worldbody><actuator>";
-  for (int i = 0; i < 2; ++i) {
-    xml += fmt::format("<velocity joint='w{}' kv='{}' forcelimited='true' forcerange='{} {}'/>", i, o.servo_gain,
-                       -s.torque_limit_nm, s.torque_limit_nm);
-  }
+  for (int i = 0; i < 2; ++i) xml += motor(i, s.torque_limit_nm, o);
   return xml + "</actuator></mujoco>";
 }
 
 class Mujoco : public Engine {
  public:
   Mujoco(const Setup& setup, const MujocoOptions& options) : setup_(setup) {
+    mju_user_warning = [](const char*) {};  // no MUJOCO_LOG.TXT: an unstable setting shows in its error
     const std::string xml = model_xml(setup, options);
     mjVFS files;
     mj_defaultVFS(&files);

@@ -2,6 +2,8 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+#include <BulletDynamics/Featherstone/btMultiBodyMLCPConstraintSolver.h>
+#include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
 #include <btBulletDynamicsCommon.h>
 
 #include <cmath>
@@ -16,11 +18,12 @@ btVector3 to_bullet(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 class StockBullet : public Engine {
  public:
-  StockBullet(const Setup& setup, int iterations)
-      : setup_(setup), dispatcher_(&configuration_),
-        world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+  StockBullet(const Setup& setup, const StockBulletOptions& options)
+      : setup_(setup), options_(options), dispatcher_(&configuration_),
+        world_(&dispatcher_, &broadphase_, solver(), &configuration_) {
     world_.setGravity({0, 0, -9.81});
-    world_.getSolverInfo().m_numIterations = iterations;
+    world_.getSolverInfo().m_numIterations = options.iterations;
+    if (options.solver == "direct") world_.getSolverInfo().m_globalCfm = 1e-7;  // else its matrix is singular
     add_floor();
     add_robot();
   }
@@ -68,6 +71,11 @@ class StockBullet : public Engine {
   std::int64_t steps() const override { return steps_; }
 
  private:
+  btMultiBodyConstraintSolver* solver() {
+    if (options_.solver == "direct") return &direct_;
+    return &sequential_;
+  }
+
   void step() {
     world_.stepSimulation(setup_.step_s, 0);
     ++steps_;
@@ -104,6 +112,11 @@ class StockBullet : public Engine {
     shapes_.push_back(std::move(shape));
   }
 
+  std::unique_ptr<btCollisionShape> wheel_shape(const Wheel& w) const {
+    if (options_.wheel == "sphere") return std::make_unique<btSphereShape>(w.radius_m);
+    return std::make_unique<btCylinderShape>(btVector3(w.radius_m, w.width_m / 2, w.radius_m));
+  }
+
   void add_robot() {
     const RobotModel& r = setup_.robot;
     body_ = std::make_unique<btMultiBody>(2, r.base.mass_kg, to_bullet(r.base.inertia_kgm2.diagonal()), false, false);
@@ -120,8 +133,7 @@ class StockBullet : public Engine {
         btTransform(btQuaternion::getIdentity(), to_bullet(r.base.com_m) + btVector3(0, 0, r.wheels[0].radius_m)));
     world_.addMultiBody(body_.get());
     for (int i = 0; i < 2; ++i) {
-      const Wheel& w = r.wheels[i];
-      add_collider(i, std::make_unique<btCylinderShape>(btVector3(w.radius_m, w.width_m / 2, w.radius_m)), 1);
+      add_collider(i, wheel_shape(r.wheels[i]), 1);
     }
     auto ball = std::make_unique<btSphereShape>(r.casters[0].radius_m);
     auto placed = std::make_unique<btCompoundShape>();
@@ -141,10 +153,13 @@ class StockBullet : public Engine {
   }
 
   Setup setup_;
+  StockBulletOptions options_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;
-  btMultiBodyConstraintSolver solver_;
+  btMultiBodyConstraintSolver sequential_;
+  btDantzigSolver dantzig_;
+  btMultiBodyMLCPConstraintSolver direct_{&dantzig_};
   btMultiBodyDynamicsWorld world_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> static_;
@@ -160,8 +175,8 @@ class StockBullet : public Engine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_stock_bullet(const Setup& setup, int iterations) {
-  return std::make_unique<StockBullet>(setup, iterations);
+std::unique_ptr<Engine> make_stock_bullet(const Setup& setup, const StockBulletOptions& options) {
+  return std::make_unique<StockBullet>(setup, options);
 }
 
 }  // namespace umbsim::bench

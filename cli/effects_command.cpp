@@ -10,17 +10,19 @@ namespace {
 
 void list_effects() {
   for (const EffectInfo& info : catalogue()) {
-    fmt::print("{:<26}{:<12}{}\n", info.name, name(info.stage), info.description);
+    fmt::print("{:<26}{:<12}{}\n", info.name, name(info.stage), info.text.description);
   }
 }
 
 void show_effect(const EffectInfo& info) {
-  fmt::print("{} ({})\n  {}\n  lecture: {}\n  source: {}\n", info.name, name(info.stage), info.description,
-             info.lecture, info.source);
+  const EffectText& t = info.text;
+  fmt::print("{} ({})\n  {}\n  lecture:       {}\n  source:        {}\n  in the data:   {}\n  confused with: {}\n", info.name,
+             name(info.stage), t.description, t.lecture, t.source, t.signature, t.confused_with);
   for (const EffectParameter& p : info.parameters) {
     fmt::print("  {} [{}]: neutral {}, plausible {} to {}, allowed: {}\n", p.name, p.unit, p.neutral, p.plausible_min,
                p.plausible_max, p.bounds.text());
   }
+  if (info.one_run) fmt::print("  run [id]: the run that it happens in, as in cw-1; empty: every run\n");
 }
 
 }  // namespace

@@ -12,7 +12,8 @@ namespace umbsim {
 enum class Stage { geometry, drivetrain, encoder, contact, floor, measurement };
 const char* name(Stage stage);
 
-/// One parameter of an effect. `neutral` is the value that changes nothing.
+/// One parameter of an effect. `neutral` is the value that changes nothing (for parameters that only say where or when:
+/// the default).
 struct EffectParameter {
   std::string name;
   std::string unit;  ///< "1" for a ratio
@@ -20,17 +21,32 @@ struct EffectParameter {
   Bounds bounds;     ///< outside: refused
   double plausible_min = 0;  ///< magnitudes met on real robots
   double plausible_max = 0;
+  double typical = 0;        ///< shown in the effect's own scenario
+};
+
+/// What the catalogue says of an effect beside its parameters.
+struct EffectText {
+  std::string lecture;        ///< where the lecture lists it
+  std::string source;
+  std::string description;    ///< one line
+  std::string signature;      ///< what it looks like in the data
+  std::string confused_with;  ///< effects that look alike
+};
+
+/// Parameter values in the order of the table line; `run` for effects of one run only.
+struct EffectValues {
+  std::vector<double> numbers;
+  std::string run;
 };
 
 /// One line of the catalogue.
 struct EffectInfo {
   std::string name;
   Stage stage = Stage::geometry;
-  std::string lecture;  ///< where the lecture lists it: systematic or non-systematic, and as what
   std::vector<EffectParameter> parameters;
-  std::string source;
-  std::string description;
-  std::function<void(const std::vector<double>& values, Rig& rig)> apply;
+  EffectText text;
+  bool one_run = false;  ///< takes the text parameter `run`
+  std::function<void(const EffectValues& values, Rig& rig)> apply;
 };
 
 /// The one table of all effects, in the order in which they are applied.
@@ -39,11 +55,14 @@ const std::vector<EffectInfo>& catalogue();
 /// Throws InputError with the list of names if there is no such effect.
 const EffectInfo& find_effect(const std::string& name);
 
-/// An effect with its parameter values, in the order of its table line.
+/// An effect with its parameter values.
 struct Effect {
   const EffectInfo* info = nullptr;
-  std::vector<double> values;
+  EffectValues values;
 };
+
+/// All parameters neutral.
+Effect neutral_effect(const EffectInfo& info);
 
 /// Reads the map `effects:`. Parameters that are left out are neutral. Throws InputError.
 std::vector<Effect> read_effects(const YamlValue& value);

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "odometry/encoder.h"
 #include "sim/drivetrain.h"
 #include "sim/floor.h"
+#include "sim/push.h"
 #include "sim/robot_model.h"
 
 namespace umbsim {
@@ -13,8 +15,20 @@ namespace umbsim {
 /// Which run a rig is built for, for effects that differ from run to run.
 struct RunInfo {
   std::string id;
-  int number = 0;  ///< counts all runs of an experiment in order
+  int number = 0;  ///< counts all runs of an experiment in order, from 0
   std::uint64_t seed = 0;
+};
+
+/// What the driver asks of the robot, relative to the course's own speeds and accelerations.
+struct Demand {
+  double acceleration_factor = 1;  ///< of linear and angular accelerations
+  double turn_speed_factor = 1;    ///< of the turns' angular speed and acceleration
+};
+
+/// A push during one leg (time 0 of `push`: the leg's start).
+struct LegPush {
+  int leg = 1;
+  Push push;
 };
 
 /// Everything that is simulated, as plain data. Effects change this description and nothing else.
@@ -23,6 +37,8 @@ struct Rig {
   Drivetrain drivetrain;
   EncoderSpec encoders;
   Floor floor;
+  Demand demand;
+  std::vector<LegPush> pushes;
   RunInfo run;
 };
 

@@ -10,6 +10,8 @@ namespace {
 
 // A cable is laid where the wheel cannot yet touch it, plus this.
 constexpr double kLayAhead_m = 0.010;
+// Standstill with braked motors before the last absolute pose is taken.
+constexpr double kRest_s = 0.5;
 
 // Wheels of the run: the scatter of their radii (wear, temperature, load), the same for the whole run.
 void scatter_radii(Rig& rig, double sd) {
@@ -100,6 +102,29 @@ class Recorder {
   int stride_ = 1;
 };
 
+Course demanded(Course course, const Demand& demand) {
+  course.linear_acceleration_mps2 *= demand.acceleration_factor;
+  course.angular_acceleration_radps2 *= demand.acceleration_factor * demand.turn_speed_factor;
+  course.angular_speed_radps *= demand.turn_speed_factor;
+  return course;
+}
+
+// Pushes during a leg as pushes during the run. Legs that the course does not have are never pushed.
+std::vector<Push> timed(const std::vector<LegPush>& pushes, const Plan& plan) {
+  std::vector<Push> result;
+  for (const LegPush& p : pushes) {
+    const std::size_t segment = 2 * std::size_t(p.leg - 1);
+    if (segment >= plan.segments().size()) continue;
+    result.push_back(p.push);
+    result.back().time_s += plan.segments()[segment].start_s;
+  }
+  return result;
+}
+
+Encoder encoder(const Rig& rig, const EncoderFaults& faults, const char* stream) {
+  return {rig.encoders, faults, RandomStream(rig.run.seed, stream, std::uint64_t(rig.run.number))};
+}
+
 }  // namespace
 
 Rig rig_for(const Scenario& s, const RobotModel& nominal, const RunSpec& spec) {
@@ -127,29 +152,32 @@ double torque_limit(const Scenario& s, const RobotModel& robot) {
 DrivenRun drive_run(const Scenario& scenario, const RobotModel& nominal, const OdometryParameters& odometry,
                     const RunSpec& spec) {
   const Rig rig = rig_for(scenario, nominal, spec);
-  const Plan plan(scenario.course, spec.direction);
+  const Plan plan(demanded(scenario.course, rig.demand), spec.direction);
   const DriveGeometry believed{odometry.left_radius_m, odometry.right_radius_m, odometry.wheelbase_m};
   const double period_s = 1 / scenario.encoders.rate_hz;
-  const int periods = int(std::ceil(plan.duration_s() / period_s));
+  const int driven = int(std::ceil(plan.duration_s() / period_s));
+  const int periods = driven + int(std::ceil(kRest_s / period_s));
 
-  World world(rig.robot, rig.drivetrain, rig.floor, scenario.physics);
+  World world(rig.robot, rig.drivetrain, rig.floor, scenario.physics, timed(rig.pushes, plan));
   world.place({0, 0, scenario.runs.start_heading_rad});
   DeadReckoning reckoning(odometry, {});
+  Encoder left_encoder = encoder(rig, rig.encoders.left, "left encoder");
+  Encoder right_encoder = encoder(rig, rig.encoders.right, "right encoder");
   CableLayer cables(scenario, spec, plan);
   Recorder recorder(scenario, spec);
   WheelSpeeds command;
   int segment = 0;
   for (int period = 0;; ++period) {
     const double time_s = period * period_s;
-    const std::int64_t left = ticks(rig.encoders, world.wheel_angle(0));
-    const std::int64_t right = ticks(rig.encoders, world.wheel_angle(1));
+    const std::int64_t left = left_encoder.read(time_s, world.encoder_angle(0));
+    const std::int64_t right = right_encoder.read(time_s, world.encoder_angle(1));
     reckoning.update(left, right);
     recorder.encoders(time_s, left, right, command);
     recorder.truth(period, periods, time_s, world.pose());
     if (period == periods) break;
     segment = plan.at(time_s, segment).segment;
     cables.lay_if_due(reckoning.pose(), segment, world, rig, recorder.run);
-    command = drive(plan, time_s, period_s, reckoning.pose(), believed, segment);
+    command = period < driven ? drive(plan, time_s, period_s, reckoning.pose(), believed, segment) : WheelSpeeds{};
     world.command(command.left_radps, command.right_radps);
     world.advance(period_s);
   }

@@ -34,9 +34,10 @@ std::string effects_block(const std::vector<Effect>& effects) {
   std::string text = "effects:\n";
   for (const Effect& effect : effects) {
     text += fmt::format("  {}:\n", effect.info->name);
-    for (std::size_t i = 0; i < effect.values.size(); ++i) {
-      text += fmt::format("    {}: {}\n", effect.info->parameters[i].name, effect.values[i]);
+    for (std::size_t i = 0; i < effect.values.numbers.size(); ++i) {
+      text += fmt::format("    {}: {}\n", effect.info->parameters[i].name, effect.values.numbers[i]);
     }
+    if (effect.info->one_run) text += fmt::format("    run: {}\n", yaml_string(effect.values.run));
   }
   return text;
 }

@@ -44,11 +44,11 @@ std::vector<RecordedRun> drive_all(ExperimentResult& result, const OdometryParam
   return runs;
 }
 
-Recording empty_recording(const Scenario& s, const RobotModel& nominal) {
+Recording empty_recording(const Scenario& s, const RobotModel& nominal, const OdometryParameters& odometry) {
   Recording r;
   r.title = s.description.empty() ? s.name : s.description;
   r.source = "umbsim, scenario " + s.name;
-  r.robot = {nominal.urdf, nominal.wheels[0].radius_m, nominal.wheelbase_m(), s.encoders.ticks_per_revolution};
+  r.robot = {nominal.urdf, nominal.wheels[0].radius_m, nominal.wheelbase_m(), odometry.ticks_per_revolution};
   r.path.side_m = s.course.side_m;
   r.path.turn = s.course.turn;
   if (s.course.turn == "arc") r.path.turn_radius_m = s.course.turn_radius_m;
@@ -88,7 +88,7 @@ void calibrate_and_drive_again(ExperimentResult& result, int next_number) {
   result.passes.reserve(std::size_t(choice.max_passes));
   for (int pass = 0; pass < choice.max_passes && (pass == 0 || another_pass(*last)); ++pass) {
     odometry = corrected(odometry, estimate(*last, method));
-    CalibrationPass done{odometry, empty_recording(result.scenario, result.nominal), {}};
+    CalibrationPass done{odometry, empty_recording(result.scenario, result.nominal, result.odometry), {}};
     const std::vector<RunSpec> specs = plan_runs(result.scenario, false, next_number);
     next_number += int(specs.size());
     done.recording.runs = drive_all(result, odometry, specs);
@@ -113,19 +113,21 @@ ExperimentResult run_experiment(const Scenario& scenario, int jobs) {
   result.scenario = scenario;
   result.nominal = load_scenario_robot(scenario);
   result.odometry = initial_odometry(scenario, result.nominal);
-
   std::vector<RunSpec> specs = plan_runs(scenario, false, 0);
+  Scenario quiet = scenario;
+  quiet.noise = {};
+  const Rig rig = rig_for(quiet, result.nominal, specs.front());
+  result.injected = injected_errors(rig, result.odometry);
+  result.odometry.ticks_per_revolution = rig.encoders.ticks_per_revolution;
+
   if (scenario.bumps.any()) {
     const std::vector<RunSpec> bumped = plan_runs(scenario, true, int(specs.size()));
     specs.insert(specs.end(), bumped.begin(), bumped.end());
   }
-  result.recording = empty_recording(scenario, result.nominal);
+  result.recording = empty_recording(scenario, result.nominal, result.odometry);
   result.recording.runs = drive_all(result, result.odometry, specs);
   measure(result);
 
-  Scenario quiet = scenario;
-  quiet.noise = {};
-  result.injected = injected_errors(rig_for(quiet, result.nominal, specs.front()), result.odometry);
   calibrate_and_drive_again(result, int(specs.size()));
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

@@ -10,6 +10,8 @@ using Eigen::Vector3d;
 
 // Share of the robot's weight below which a wheel's creep no longer grows.
 constexpr double kLeastLoad = 0.02;
+// Turning speed that a newton metre leaves in a sticking patch: both wheels' rows are nearly the same.
+constexpr double kSpinMobility = 1e-6;  // rad/s per N m
 constexpr double kSpeculative_m = 0.001;  // contacts this far ahead are watched, beyond what the step can travel
 
 }  // namespace
@@ -94,7 +96,7 @@ void World::State::add_spin_friction(const DofVector& u, double step_s) {
     problem.motor[problem.motors++] = {rows, limit};
     row[rows] = DofVector::Zero(body.dofs());
     row[rows].head<3>() = row[c.normal].segment<3>(3);  // the contact's normal
-    compliance[rows] = 0;
+    compliance[rows] = kSpinMobility / step_s;
     problem.b[rows] = row[rows].dot(u);
     ++rows;
   }

@@ -40,7 +40,7 @@ struct ContactProblem {
 enum class SolveOutcome {
   stick,     ///< every contact closed and sticking, motors within their limits: one factorisation
   newton,    ///< a semi-smooth Newton iteration found the solution
-  fallback,  ///< Newton did not converge; projected Gauss-Seidel to `residual`
+  fallback,  ///< neither Newton nor projected Gauss-Seidel came below 1e-6 of the largest impulse
 };
 
 struct SolveReport {

@@ -51,6 +51,7 @@ class MultiBody {
   const Eigen::Matrix3d& rotation() const { return R_WB_; }
   const Eigen::Vector3d& position() const { return p_WB_; }
   double joint_angle(int joint) const { return angle_rad_[joint]; }
+  void set_joint_angle(int joint, double angle_rad) { angle_rad_[joint] = angle_rad; }
   const DofVector& velocity() const { return u_; }
   void set_velocity(const DofVector& u) { u_ = u; }
 

@@ -50,6 +50,8 @@ struct Caster {
   double wheel_mass_kg = 0;
   double wheel_spin_inertia_kgm2 = 0;
   double wheel_transverse_inertia_kgm2 = 0;
+  double swivel_friction_nm = 0;   ///< dry friction of the swivel bearing
+  double initial_angle_rad = 0;    ///< of the swivel at the start of a run
 };
 
 /// A differential-drive robot as plain data: what the URDF says, reduced to the bodies that matter.

@@ -59,6 +59,7 @@ void World::State::step_with_motor_rows(double step_s, const std::array<double, 
     if (drivetrain.motor[i].backlash_rad > 0) add_backlash(i, target_radps[i], step_s, u);
     else if (drivetrain.motor[i].torque_limit_nm > 0) add_motor(i, target_radps[i], step_s, u);
   }
+  add_swivel_friction(step_s, u);
   const DofMatrix& M_inverse = body.inverse_mass();
   const int dofs = body.dofs();
   if (dofs == kBaseAndWheels) assemble<kBaseAndWheels>(M_inverse.data(), dofs, dofs);
@@ -75,18 +76,33 @@ void World::State::add_motor(int wheel, double target_radps, double step_s, cons
   ++rows;
 }
 
-// Two one-sided rows: the motor's shaft can push the wheel only at either end of the play.
+void World::State::add_swivel_friction(double step_s, const DofVector& u) {
+  for (std::size_t i = 0; i < robot.casters.size(); ++i) {
+    const Caster& c = robot.casters[i];
+    if (!c.swivels || c.swivel_friction_nm == 0 || problem.motors == 8) continue;
+    const int fork = body.joints()[body.caster_wheel_joint(int(i))].parent;
+    problem.motor[problem.motors++] = {rows, c.swivel_friction_nm * step_s};
+    row[rows] = DofVector::Unit(body.dofs(), 6 + fork);
+    compliance[rows] = 0;
+    problem.b[rows] = u[6 + fork];
+    ++rows;
+  }
+}
+
+// A one-sided row at the end of the play that would be reached first: there the motor's shaft can push the wheel, but
+// not pull it.
 void World::State::add_backlash(int wheel, double target_radps, double step_s, const DofVector& u) {
   const Motor& m = drivetrain.motor[wheel];
   const double play_rad = shaft_rad[wheel] - body.joint_angle(wheel);
-  for (const double side : {1.0, -1.0}) {
-    const double room_rad = m.backlash_rad / 2 - side * play_rad;
-    problem.motor[problem.motors++] = {rows, m.torque_limit_nm * step_s, 0};
-    row[rows] = DofVector::Unit(body.dofs(), 6 + wheel) * side;
-    compliance[rows] = 0;
-    problem.b[rows] = side * (u[6 + wheel] - target_radps) + room_rad / step_s;
-    ++rows;
-  }
+  const double lag_radps = u[6 + wheel] - target_radps;
+  const double forward = lag_radps + (m.backlash_rad / 2 - play_rad) / step_s;
+  const double backward = -lag_radps + (m.backlash_rad / 2 + play_rad) / step_s;
+  const double side = forward <= backward ? 1 : -1;
+  problem.motor[problem.motors++] = {rows, m.torque_limit_nm * step_s, 0};
+  row[rows] = DofVector::Unit(body.dofs(), 6 + wheel) * side;
+  compliance[rows] = 0;
+  problem.b[rows] = std::min(forward, backward);
+  ++rows;
 }
 
 // The shaft turns at its set-point; where the wheel cannot follow, the end of the play stops it.

@@ -94,6 +94,11 @@ World::World(World&&) noexcept = default;
 void World::place(const Pose2& X_WB) {
   State& s = *state_;
   s.body.set_velocity(DofVector::Zero(s.body.dofs()));
+  for (std::size_t i = 0; i < s.robot.casters.size(); ++i) {
+    const Caster& c = s.robot.casters[i];
+    if (!c.swivels) continue;
+    s.body.set_joint_angle(s.body.joints()[s.body.caster_wheel_joint(int(i))].parent, c.initial_angle_rad);
+  }
   s.place_on_floor(X_WB);
   s.heading_rad = X_WB.theta_rad;
   s.command_radps = s.last_command_radps = s.set_point_radps = {};

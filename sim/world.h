@@ -54,7 +54,7 @@ class World {
   World(World&&) noexcept;
 
   /// Sets the robot at rest on the floor with the axle's middle at X_WB, and lets it settle with the motors
-  /// braked. Throws RunError if a wheel or caster then carries no load.
+  /// braked. Throws InputError if a wheel or caster then carries no load: such a robot does not stand.
   void place(const Pose2& X_WB);
 
   /// Wheel speeds that the motors shall have reached at the end of the next `advance`, forward positive.

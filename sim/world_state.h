@@ -80,6 +80,7 @@ struct World::State {
   TyreSlip tyre_slip(const Support& s) const;
   void add_spin_friction(const DofVector& u, double step_s);
   void add_motor(int wheel, double target_radps, double step_s, const DofVector& u);
+  void add_swivel_friction(double step_s, const DofVector& u);
   void add_backlash(int wheel, double target_radps, double step_s, const DofVector& u);
   void move_shafts(double step_s, const std::array<double, 2>& target_radps);
   void add_pushes(double step_s, DofVector& u);

@@ -28,10 +28,12 @@ double extent_at(const Segment& s, double t) {
   return s.speed * (t - s.ramp_s / 2);
 }
 
-// Gains of the pose correction, per second (heading, along) and per metre and second (across).
+// Gains of the pose correction, per second. Across the path the error obeys y'' + kHeading y' + kAcross^2 y = 0 at any
+// speed above kSlow_mps: critically damped.
 constexpr double kAlong = 4;
 constexpr double kHeading = 6;
-constexpr double kAcross = 8;
+constexpr double kAcross = 3;
+constexpr double kSlow_mps = 0.1;
 
 }  // namespace
 
@@ -75,7 +77,8 @@ WheelSpeeds drive(const Plan& plan, double time_s, double period_s, const Pose2&
 
   const Pose2 error = inverse(X_SB) * now.X_SB;
   const double v = feed_v * std::cos(error.theta_rad) + kAlong * error.x_m;
-  const double w = feed_w + kHeading * error.theta_rad + kAcross * feed_v * error.y_m;
+  const double across = kAcross * kAcross * feed_v / std::max(feed_v * feed_v, kSlow_mps * kSlow_mps);
+  const double w = feed_w + kHeading * error.theta_rad + across * error.y_m;
   const double half_m = geometry.wheelbase_m / 2;
   return {(v - w * half_m) / geometry.left_radius_m, (v + w * half_m) / geometry.right_radius_m};
 }

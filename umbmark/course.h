@@ -73,7 +73,7 @@ struct DriveGeometry {
 };
 
 /// Speeds over the control period that begins at `time_s`: the reference's own motion, and a correction of the pose
-/// error (Kanayama et al. 1990) that fades out in about a quarter of a second. All poses in the frame of the start.
+/// error (after Kanayama et al. 1990) that fades out within a second. All poses in the frame of the start.
 WheelSpeeds drive(const Plan& plan, double time_s, double period_s, const Pose2& X_SB, const DriveGeometry& geometry,
                   int segment_hint);
 

@@ -40,17 +40,21 @@ std::vector<double> numbers(const Rig& rig) {
   for (const Wheel& w : r.wheels) {
     add(w.centre_m);
     add(w.axis);
-    for (double v :
-         {w.radius_m, w.width_m, w.mass_kg, w.spin_inertia_kgm2, w.transverse_inertia_kgm2, w.effort_limit_nm}) {
-      all.push_back(v);
-    }
+    all.insert(all.end(), {w.radius_m, w.width_m, w.mass_kg, w.spin_inertia_kgm2, w.transverse_inertia_kgm2,
+                           w.effort_limit_nm, w.eccentricity_m, w.eccentricity_rad, w.compliance_mpn, w.creep_along,
+                           w.creep_across, w.patch_width_m});
   }
   for (const Caster& c : r.casters) {
     add(c.centre_m);
     all.insert(all.end(), {c.radius_m, c.friction});
   }
-  all.insert(all.end(), {rig.drivetrain.torque_limit_nm, rig.encoders.ticks_per_revolution, rig.encoders.rate_hz,
-                         rig.floor.friction, double(rig.floor.ripples.size()), double(rig.floor.cables.size())});
+  for (const Motor& m : rig.drivetrain.motor) {
+    all.insert(all.end(), {m.torque_limit_nm, m.gain, m.lag_s, m.deadband_radps, m.backlash_rad});
+  }
+  const Floor& f = rig.floor;
+  all.insert(all.end(),
+             {rig.encoders.ticks_per_revolution, rig.encoders.rate_hz, f.friction, f.slope_rad, f.downhill_rad,
+              f.drift_x, f.drift_y, double(f.ripples.size()), double(f.cables.size()), double(f.patches.size())});
   return all;
 }
 

@@ -33,12 +33,14 @@ inline double law_violation(const ContactProblem& p, const RowVector& x) {
     note(std::abs(x_t.dot(w_t) + limit * w_t.norm()) / (impulse * slip));
   }
   for (int i = 0; i < p.motors; ++i) {
-    const auto [row, limit] = p.motor[i];
+    const auto [row, upper, lower_share] = p.motor[i];
+    const double lower = lower_share * upper;
     const double speed = impulse * p.A(row, row);
-    note((std::abs(x[row]) - limit) / impulse);
+    note((x[row] - upper) / impulse);
+    note((lower - x[row]) / impulse);
     // Too slow only at the upper bound, too fast only at the lower one.
-    note(std::min(-w[row] / speed, (limit - x[row]) / impulse));
-    note(std::min(w[row] / speed, (x[row] + limit) / impulse));
+    note(std::min(-w[row] / speed, (upper - x[row]) / impulse));
+    note(std::min(w[row] / speed, (x[row] - lower) / impulse));
   }
   return worst;
 }
@@ -56,7 +58,7 @@ inline RowMatrix random_delassus(RandomStream& random, int rows, int dofs, doubl
   return (0.5 * (A + A.transpose())).eval();
 }
 
-/// 1..4 contacts, most of them with friction, then 0..2 motors.
+/// 1..4 contacts, most of them with friction, then 0..2 motors, of which some can only push.
 inline ContactProblem random_problem(RandomStream& random, double max_friction) {
   ContactProblem p;
   int rows = 0;
@@ -67,7 +69,8 @@ inline ContactProblem random_problem(RandomStream& random, double max_friction) 
     rows += rough ? 3 : 1;
   }
   p.motors = int(random.uniform(0, 3));
-  for (int i = 0; i < p.motors; ++i) p.motor[i] = {rows++, random.uniform(0.05, 2)};
+  for (int i = 0; i < p.motors; ++i)
+    p.motor[i] = {rows++, random.uniform(0.05, 2), random.uniform() < 0.3 ? 0.0 : -1.0};
   p.A = random_delassus(random, rows, rows + 2, 1e-6);
   p.b.resize(rows);
   for (int i = 0; i < rows; ++i) p.b[i] = random.normal();

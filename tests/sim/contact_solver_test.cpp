@@ -80,7 +80,7 @@ TEST(ContactSolver, AllClosedAndStickingNeedsOneFactorisation) {
       inside[n] = random.uniform(0.1, 2);
       if (friction > 0) inside[n + 1] = 0.9 * friction * inside[n];
     }
-    for (int i = 0; i < p.motors; ++i) inside[p.motor[i].row] = -0.9 * p.motor[i].limit;
+    for (int i = 0; i < p.motors; ++i) inside[p.motor[i].row] = 0.9 * p.motor[i].limit;
     p.b = -p.A * inside;
     RowVector x;
     EXPECT_EQ(solve_contacts(p, x).outcome, SolveOutcome::stick);
@@ -123,7 +123,7 @@ RowVector dantzig(const ContactProblem& p) {
     no_dependency.push_back(-1);
   }
   for (int i = 0; i < p.motors; ++i) {
-    lo[p.motor[i].row] = -p.motor[i].limit;
+    lo[p.motor[i].row] = p.motor[i].lower_share * p.motor[i].limit;
     hi[p.motor[i].row] = p.motor[i].limit;
   }
   x.setZero();
@@ -142,7 +142,7 @@ TEST(ContactSolver, AgreesWithDantzigWithoutFriction) {
     p.contacts = 1 + int(random.uniform(0, 8));
     for (int i = 0; i < p.contacts; ++i) p.contact[i] = {i, 0};
     p.motors = 2;
-    for (int i = 0; i < 2; ++i) p.motor[i] = {p.contacts + i, random.uniform(0.05, 2)};
+    for (int i = 0; i < 2; ++i) p.motor[i] = {p.contacts + i, random.uniform(0.05, 2), i == 0 ? -1.0 : 0.0};
     const int rows = p.contacts + 2;
     p.A = random_delassus(random, rows, rows + 1, 1e-4);
     p.b.resize(rows);

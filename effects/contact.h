@@ -1,0 +1,41 @@
+#pragma once
+
+#include "effects/rig.h"
+
+namespace umbsim {
+
+/// The rolling radius shrinks with load.
+struct TyreCompliance {
+  double metres_per_newton = 0;
+};
+void apply(const TyreCompliance& effect, Rig& rig);
+
+/// Contacts of finite width resist turning on the spot.
+struct ContactPatch {
+  double width_m = 0;
+};
+void apply(const ContactPatch& effect, Rig& rig);
+
+/// Slip in proportion to traction before sliding: slip = creep * F / N.
+struct TyreCreep {
+  double along = 0;
+  double across = 0;
+};
+void apply(const TyreCreep& effect, Rig& rig);
+
+/// The first caster is a wheel that swivels behind a trail, instead of a ball.
+struct CasterSwivel {
+  double trail_m = 0;             ///< 0: as in the URDF
+  double friction_nm = 0;         ///< of the swivel bearing
+  double initial_angle_rad = 0;   ///< 0: trailing
+};
+void apply(const CasterSwivel& effect, Rig& rig);
+
+/// Fixed casters drag on the floor, perhaps beside the middle.
+struct CasterDrag {
+  double coefficient = 0;  ///< drag over load
+  double left_m = 0;       ///< shifts the casters sideways
+};
+void apply(const CasterDrag& effect, Rig& rig);
+
+}  // namespace umbsim
