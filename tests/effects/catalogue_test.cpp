@@ -46,7 +46,7 @@ std::vector<double> numbers(const Rig& rig) {
   }
   for (const Caster& c : r.casters) {
     add(c.centre_m);
-    all.insert(all.end(), {c.radius_m, c.friction});
+    all.insert(all.end(), {c.radius_m, c.friction, double(c.swivels), c.swivel_friction_nm, c.initial_angle_rad});
   }
   for (const Motor& m : rig.drivetrain.motor) {
     all.insert(all.end(), {m.torque_limit_nm, m.gain, m.lag_s, m.deadband_radps, m.backlash_rad});
@@ -55,6 +55,12 @@ std::vector<double> numbers(const Rig& rig) {
   all.insert(all.end(),
              {rig.encoders.ticks_per_revolution, rig.encoders.rate_hz, f.friction, f.slope_rad, f.downhill_rad,
               f.drift_x, f.drift_y, double(f.ripples.size()), double(f.cables.size()), double(f.patches.size())});
+  const EncoderSpec& e = rig.encoders;
+  for (const EncoderFaults& faults : {e.left, e.right}) {
+    all.insert(all.end(), {faults.missed_probability, faults.missed_probability_per_radps});
+  }
+  all.insert(all.end(), {e.sampling_interval_s, e.latency_s, rig.demand.acceleration_factor,
+                         rig.demand.turn_speed_factor, double(rig.pushes.size())});
   return all;
 }
 
@@ -76,8 +82,7 @@ std::vector<double> driven(const Rig& rig) {
 TEST(Catalogue, EveryEffectAtItsNeutralValueChangesNotOneBit) {
   const std::vector<double> before = numbers(nominal()), path = driven(nominal());
   for (const EffectInfo& info : catalogue()) {
-    Effect effect{&info, {}};
-    for (const EffectParameter& p : info.parameters) effect.values.push_back(p.neutral);
+    const Effect effect = neutral_effect(info);
     const Rig rig = apply_effects({effect}, nominal());
     EXPECT_TRUE(same_bits(numbers(rig), before)) << info.name;
     EXPECT_TRUE(same_bits(driven(rig), path)) << info.name;
@@ -85,12 +90,14 @@ TEST(Catalogue, EveryEffectAtItsNeutralValueChangesNotOneBit) {
   }
 }
 
-TEST(Catalogue, EveryEffectAtAPlausibleValueChangesThePath) {
-  const std::vector<double> path = driven(nominal());
+TEST(Catalogue, EveryEffectAtAPlausibleValueChangesTheRig) {
+  Rig third_run = nominal();
+  third_run.run.number = 2;  // wear shows from the second run on
+  const std::vector<double> before = numbers(third_run);
   for (const EffectInfo& info : catalogue()) {
-    Effect effect{&info, {}};
-    for (const EffectParameter& p : info.parameters) effect.values.push_back(p.plausible_max);
-    EXPECT_FALSE(same_bits(driven(apply_effects({effect}, nominal())), path)) << info.name;
+    Effect effect = neutral_effect(info);
+    for (std::size_t i = 0; i < info.parameters.size(); ++i) effect.values.numbers[i] = info.parameters[i].plausible_max;
+    EXPECT_FALSE(same_bits(numbers(apply_effects({effect}, third_run)), before)) << info.name;
   }
 }
 
@@ -98,12 +105,13 @@ TEST(Catalogue, LinesAreComplete) {
   std::set<std::string> names;
   for (const EffectInfo& info : catalogue()) {
     EXPECT_TRUE(names.insert(info.name).second) << info.name << " is there twice";
-    EXPECT_FALSE(info.lecture.empty() || info.source.empty() || info.description.empty()) << info.name;
+    EXPECT_FALSE(info.text.lecture.empty() || info.text.source.empty() || info.text.description.empty() ||
+                 info.text.signature.empty() || info.text.confused_with.empty()) << info.name;
     ASSERT_FALSE(info.parameters.empty());
     for (const EffectParameter& p : info.parameters) {
       EXPECT_TRUE(p.bounds.contains(p.neutral)) << info.name;
       EXPECT_TRUE(p.bounds.contains(p.plausible_min) && p.bounds.contains(p.plausible_max)) << info.name;
-      EXPECT_LT(p.plausible_min, p.plausible_max) << info.name;
+      EXPECT_LE(p.plausible_min, p.plausible_max) << info.name;
     }
   }
 }

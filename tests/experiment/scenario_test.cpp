@@ -156,7 +156,7 @@ effects: {wheelbase: {relative: -0.011264705882352899}, wheel_radius_scale: {rel
   EXPECT_EQ(again.bumps.laid.wheel, BumpWheel::outer);
   EXPECT_EQ(again.physics.softness.damping_ratio, 0.5);
   ASSERT_EQ(again.effects.size(), 2u);
-  EXPECT_EQ(again.effects[1].values, s.effects[1].values);
+  EXPECT_EQ(again.effects[1].values.numbers, s.effects[1].values.numbers);
 }
 
 TEST(Scenario, SettingsReplaceAndAdd) {
@@ -166,7 +166,7 @@ TEST(Scenario, SettingsReplaceAndAdd) {
   EXPECT_EQ(s.course.laps, 3);
   EXPECT_EQ(s.name, "other");
   ASSERT_EQ(s.effects.size(), 1u);
-  EXPECT_EQ(s.effects[0].values[0], 0.01);
+  EXPECT_EQ(s.effects[0].values.numbers[0], 0.01);
   EXPECT_EQ(read(kFormat, {"runs.directions=[ccw]"}).runs.directions.size(), 1u);
 }
 
