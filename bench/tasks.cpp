@@ -12,7 +12,13 @@ namespace umbsim::bench {
 namespace {
 
 constexpr double kPeriod_s = 0.02;
-constexpr EncoderSpec kFine{1e6, 1 / kPeriod_s};
+constexpr double kOnceRound_rad = 0.1;
+const EncoderSpec kFine = [] {
+  EncoderSpec spec;
+  spec.ticks_per_revolution = 1e6;
+  spec.rate_hz = 1 / kPeriod_s;
+  return spec;
+}();
 
 // Of this thread on a processor: other programs on the machine count less than on a wall clock.
 double now_s() {
@@ -59,7 +65,7 @@ Outcome drive_square(Engine& engine, const RobotModel& nominal, double side_m) {
   const double begin_s = now_s();
   for (int k = 0; k < periods; ++k) {
     reckoning.update(ticks(kFine, engine.wheel_angle(0)), ticks(kFine, engine.wheel_angle(1)));
-    segment = plan.at(k * kPeriod_s, segment).segment;
+    segment = plan.segment_at(k * kPeriod_s, segment);
     const WheelSpeeds w = drive(plan, k * kPeriod_s, kPeriod_s, reckoning.pose(), believed, segment);
     engine.command(w.left_radps, w.right_radps);
     engine.advance(kPeriod_s);
@@ -69,7 +75,9 @@ Outcome drive_square(Engine& engine, const RobotModel& nominal, double side_m) {
   const Pose2 truth = inverse(start) * engine.pose();
   const Pose2& calculated = reckoning.pose();
   const Pose2 error{truth.x_m - calculated.x_m, truth.y_m - calculated.y_m, truth.theta_rad - calculated.theta_rad};
-  return {std::hypot(error.x_m, error.y_m), error, error.theta_rad, periods * kPeriod_s, cpu_s, double(engine.steps())};
+  const bool arrived = std::abs(calculated.theta_rad + 2 * M_PI) < kOnceRound_rad;
+  return {std::hypot(error.x_m, error.y_m), error, error.theta_rad, periods * kPeriod_s, cpu_s, double(engine.steps()),
+          arrived};
 }
 
 double cable_heading_rad(double radius_m, double wheelbase_m, double cable_height_m) {

@@ -15,6 +15,7 @@ struct Outcome {
   double simulated_s = 0;
   double cpu_s = 0;              ///< time of this thread on a processor
   double steps = 0;
+  bool arrived = true;           ///< square: it really turned round once
   double speed() const { return simulated_s / cpu_s; }
   double us_per_step() const { return 1e6 * cpu_s / steps; }
 };

@@ -1,6 +1,7 @@
 // Tries MuJoCo's settings on the flat square and on the cable, and prints the best: docs/bench.md documents the choice.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include <fmt/format.h>
 
@@ -23,13 +24,12 @@ constexpr std::size_t kShown = 12;
 
 std::vector<MujocoOptions> servo_variants(const MujocoOptions& base) {
   std::vector<MujocoOptions> all;
-  for (const char* servo : {"actuator", "damping"}) {
-    for (const double gain : {5.0, 20.0, 100.0, 400.0}) {
-      MujocoOptions o = base;
-      o.servo = servo;
-      o.servo_gain = gain;
-      all.push_back(o);
-    }
+  for (const auto& [servo, gain] : {std::pair{"actuator", 5.0}, {"actuator", 20.0}, {"damping", 5.0}, {"damping", 20.0},
+                                    {"damping", 100.0}, {"damping", 400.0}}) {
+    MujocoOptions o = base;
+    o.servo = servo;
+    o.servo_gain = gain;
+    all.push_back(o);
   }
   return all;
 }
@@ -52,26 +52,27 @@ std::vector<MujocoOptions> solver_variants() {
   return all;
 }
 
-Trial finite(Trial t) {
-  if (!std::isfinite(t.outcome.error)) t.outcome.error = 1e9;
+// An unstable setting: MuJoCo sets the robot back to the start, again and again.
+Trial checked(Trial t) {
+  if (!t.outcome.arrived || !std::isfinite(t.outcome.error)) t.outcome.error = 1e9;
   return t;
 }
 
 Trial try_square(const RobotModel& robot, MujocoOptions o, double step_s) {
   o.contact_time_s = 2 * step_s;
   const auto engine = make_mujoco(flat(robot, step_s), o);
-  return finite({o, step_s, drive_square(*engine, robot)});
+  return checked({o, step_s, drive_square(*engine, robot)});
 }
 
 Trial try_cable(const RobotModel& robot, const MujocoOptions& o, double step_s) {
   const auto engine = make_mujoco(with_cable(robot, step_s), o);
-  return finite({o, step_s, cross_cable(*engine, robot)});
+  return checked({o, step_s, cross_cable(*engine, robot)});
 }
 
 std::vector<Trial> squares(const RobotModel& robot) {
-  constexpr double kSteps_s[] = {0.005, 0.01, 0.02};
+  constexpr double kSteps_s[] = {0.01, 0.02};
   const std::vector<MujocoOptions> solvers = solver_variants();
-  Progress progress("square", int(solvers.size() * 8 * std::size(kSteps_s)));
+  Progress progress("square", int(solvers.size() * 6 * std::size(kSteps_s)));
   std::vector<Trial> trials;
   for (const MujocoOptions& solver : solvers)
     for (const MujocoOptions& o : servo_variants(solver))
@@ -83,9 +84,9 @@ std::vector<Trial> squares(const RobotModel& robot) {
 }
 
 std::vector<Trial> cables(const RobotModel& robot) {
-  constexpr double kSteps_s[] = {0.0002, 0.0005, 0.001, 0.002};
-  constexpr double kTimes_s[] = {0.004, 0.01, 0.02, 0.04};
-  constexpr double kDamping[] = {1, 2, 4};
+  constexpr double kSteps_s[] = {0.0005, 0.001, 0.002};
+  constexpr double kTimes_s[] = {0.004, 0.01, 0.02};
+  constexpr double kDamping[] = {1, 4};
   const std::vector<MujocoOptions> solvers = solver_variants();
   Progress progress("cable", int(solvers.size() * std::size(kSteps_s) * std::size(kTimes_s) * std::size(kDamping)));
   std::vector<Trial> trials;
@@ -94,7 +95,7 @@ std::vector<Trial> cables(const RobotModel& robot) {
       for (const double time_s : kTimes_s)
         for (const double damping : kDamping) {
           progress.step();
-          if (solver.integrator == "RK4" && step_s < 0.001) continue;
+          if (solver.integrator == "RK4") continue;  // four times the cost, and no better on a blow
           MujocoOptions o = solver;
           o.contact_time_s = time_s;
           o.contact_damping_ratio = damping;
@@ -115,14 +116,16 @@ void print(const Trial& t, double error) {
              o.noslip_iterations, 1e3 * t.step_s, error, t.outcome.speed());
 }
 
+bool sound(const Trial& t) { return t.outcome.error < 1e9; }
+
 void report_squares(std::vector<Trial> trials) {
   std::sort(trials.begin(), trials.end(),
             [](const Trial& a, const Trial& b) { return a.outcome.speed() > b.outcome.speed(); });
-  for (const double step_s : {0.005, 0.01, 0.02}) {
+  for (const double step_s : {0.01, 0.02}) {
     print_header(fmt::format("Square, {} ms: the most accurate", 1e3 * step_s).c_str(), "error mm");
     std::vector<Trial> of_step;
     for (const Trial& t : trials) {
-      if (t.step_s == step_s) of_step.push_back(t);
+      if (t.step_s == step_s && sound(t)) of_step.push_back(t);
     }
     std::stable_sort(of_step.begin(), of_step.end(),
                      [](const Trial& a, const Trial& b) { return a.outcome.error < b.outcome.error; });
@@ -138,7 +141,7 @@ void report_squares(std::vector<Trial> trials) {
 void report_cables(std::vector<Trial> trials) {
   const auto off = [](const Trial& t) { return std::abs(t.outcome.error - 1); };
   std::sort(trials.begin(), trials.end(), [&](const Trial& a, const Trial& b) { return off(a) < off(b); });
-  for (const double step_s : {0.0002, 0.0005, 0.001, 0.002}) {
+  for (const double step_s : {0.0005, 0.001, 0.002}) {
     print_header(fmt::format("10 mm cable, {} ms: nearest to the closed form", 1e3 * step_s).c_str(), "ratio");
     std::size_t shown = 0;
     for (const Trial& t : trials) {
@@ -152,5 +155,6 @@ void report_cables(std::vector<Trial> trials) {
 int main() {
   const RobotModel robot = load_robot(UMBSIM_ROBOTS_DIR "/labmate.urdf");
   report_squares(squares(robot));
+  std::fflush(stdout);
   report_cables(cables(robot));
 }

@@ -8,5 +8,6 @@ namespace umbsim {
 void add_run_command(CLI::App& app);
 void add_calibrate_command(CLI::App& app);
 void add_effects_command(CLI::App& app);
+void add_explain_command(CLI::App& app);
 
 }  // namespace umbsim

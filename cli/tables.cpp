@@ -1,5 +1,9 @@
 #include "cli/tables.h"
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
 
 namespace umbsim {
@@ -33,6 +37,50 @@ std::string one_way_table(const ExperimentResult& r) {
   if (!r.ccw.errors.empty()) text += cluster_line("ccw", r.ccw);
   text += "  One E_d can hide one E_b in either direction: a one-way test is unfit for differential drives.\n";
   return text;
+}
+
+std::string shares_line(const char* label, const ErrorShares& s) {
+  return fmt::format("  {:<12}{:>12.3f}{:>16.3f}{:>20.3f}{:>14.1f} %{:>15.1f} %\n", label, mm(s.rms_m),
+                     mm(s.systematic_m), mm(s.non_systematic_m), 100 * s.systematic, 100 * s.non_systematic);
+}
+
+// One-way against two-way, and systematic against non-systematic (lecture 7.3 and 7.4).
+std::string comparison_table(const ExperimentResult& r) {
+  std::string text;
+  if (r.umbmark) {
+    text += fmt::format(
+        "One-way against two-way\n  one-way cw {:.3f} mm, {:.4f} deg; one-way ccw {:.3f} mm, {:.4f} deg; two-way "
+        "E_max,syst {:.3f} mm\n",
+        mm(r.cw.r_cg_m), degrees(r.cw.heading_rad), mm(r.ccw.r_cg_m), degrees(r.ccw.heading_rad),
+        mm(r.umbmark->e_max_syst_m));
+  }
+  if (std::max(r.cw.errors.size(), r.ccw.errors.size()) < 2) return text;  // one run has no spread
+  text += "Systematic against non-systematic: rms^2 = r_cg^2 + spread^2\n";
+  text += fmt::format("  {:<12}{:>12}{:>16}{:>20}{:>16}{:>17}\n", "", "rms mm", "systematic mm", "non-systematic mm",
+                      "systematic", "non-systematic");
+  std::vector<ErrorShares> directions;
+  for (const auto& [c, direction] : {std::pair{&r.cw, "cw"}, std::pair{&r.ccw, "ccw"}}) {
+    if (c->errors.empty()) continue;
+    directions.push_back(error_shares(*c));
+    text += shares_line(direction, directions.back());
+  }
+  return directions.size() < 2 ? text : text + shares_line("both", error_shares(directions));
+}
+
+std::string uncertainty_line(const ExperimentResult& r) {
+  std::vector<const PoseTrack*> tracks;
+  for (int i = 0; i < int(r.cw.errors.size() + r.ccw.errors.size()); ++i) tracks.push_back(&r.tracks[std::size_t(i)]);
+  const UncertaintyFigures f = uncertainty_figures(tracks);
+  if (f.runs == 0) return "";
+  double a_m = 0, b_m = 0;
+  for (const PoseTrack* track : tracks) {
+    const Ellipse e = ellipse_95(track->samples.back().estimate.covariance);
+    a_m += e.a_m / f.runs, b_m += e.b_m / f.runs;
+  }
+  return fmt::format(
+      "Pose uncertainty: 95 % ellipse of the end, semi-axes {:.1f} and {:.1f} mm; true end inside in {:.0f} % of {} "
+      "runs\n",
+      mm(a_m), mm(b_m), 100 * f.end_inside_95_share, f.runs);
 }
 
 std::string recovery_table(const ExperimentResult& r) {
@@ -78,7 +126,7 @@ std::string extended_table(const ExtendedUmbmark& e) {
 
 std::string experiment_table(const ExperimentResult& r) {
   std::string text = fmt::format("{}: {} on a {} m square\n", r.scenario.name, r.nominal.urdf, r.scenario.course.side_m);
-  if (!r.umbmark) return text + one_way_table(r);
+  if (!r.umbmark) return text + one_way_table(r) + comparison_table(r) + uncertainty_line(r);
   text += umbmark_table(*r.umbmark) + injected_line(r.injected);
   const double smaller_m = std::min(r.umbmark->cw.r_cg_m, r.umbmark->ccw.r_cg_m);
   if (smaller_m < r.umbmark->e_max_syst_m / 10) {
@@ -86,7 +134,9 @@ std::string experiment_table(const ExperimentResult& r) {
                         "differential drives.\n",
                         r.umbmark->cw.r_cg_m < r.umbmark->ccw.r_cg_m ? "cw" : "ccw", mm(smaller_m));
   }
+  text += comparison_table(r);
   if (r.extended) text += extended_table(*r.extended);
+  text += uncertainty_line(r);
   if (!r.passes.empty()) text += recovery_table(r);
   text += fmt::format("Cost: {:.1f} simulated s in {:.2f} s, {} steps, {} solver fallbacks\n", r.cost.simulated_s,
                       r.wall_s, r.cost.steps, r.cost.solver_fallbacks);

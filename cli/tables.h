@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "experiment/explain.h"
 #include "experiment/run.h"
 
 namespace umbsim {
@@ -11,5 +12,6 @@ namespace umbsim {
 std::string umbmark_table(const Umbmark& umbmark);
 std::string extended_table(const ExtendedUmbmark& extended);
 std::string experiment_table(const ExperimentResult& result);
+std::string explanation_table(const Scenario& scenario, const Explanation& explanation);
 
 }  // namespace umbsim

@@ -39,8 +39,9 @@ void apply(const CasterSwivel& effect, Rig& rig) {
     c.wheel_spin_inertia_kgm2 = wheel_kg * r2 / 2;
     c.wheel_transverse_inertia_kgm2 = wheel_kg * r2 / 4;
   }
+  const double height_m = c.centre_m.z();  // the swivel point is anywhere on its axis
   c.centre_m = c.swivel_point_m - Eigen::Vector3d(effect.trail_m, 0, 0);
-  c.centre_m.z() = c.swivel_point_m.z();
+  c.centre_m.z() = height_m;
   c.swivel_friction_nm = effect.friction_nm;
   c.initial_angle_rad = effect.initial_angle_rad;
 }

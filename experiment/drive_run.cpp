@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "experiment/rolling_noise.h"
 
 namespace umbsim {
 namespace {
@@ -86,12 +87,14 @@ class Recorder {
     run.encoders.push_back({time_s, left, right, command.left_radps, command.right_radps});
   }
 
-  void truth(int period, int last_period, double time_s, const Pose2& X_WB) {
+  /// Whether an absolute pose is due in this period, and was taken.
+  bool truth(int period, int last_period, double time_s, const Pose2& X_WB) {
     const bool end = period == 0 || period == last_period;
-    if (!end && (truth_.kind == "endpoints" || period % stride_ != 0)) return;
+    if (!end && (truth_.kind == "endpoints" || period % stride_ != 0)) return false;
     const double x = random_.normal(X_WB.x_m, truth_.position_sd_m);
     const double y = random_.normal(X_WB.y_m, truth_.position_sd_m);
     run.truth.push_back({time_s, {x, y, random_.normal(X_WB.theta_rad, truth_.heading_sd_rad)}});
+    return true;
   }
 
   RecordedRun run;
@@ -160,10 +163,12 @@ DrivenRun drive_run(const Scenario& scenario, const RobotModel& nominal, const O
 
   World world(rig.robot, rig.drivetrain, rig.floor, scenario.physics, timed(rig.pushes, plan));
   world.place({0, 0, scenario.runs.start_heading_rad});
-  DeadReckoning reckoning(odometry, {});
+  UncertainReckoning reckoning(odometry, scenario.uncertainty);
   Encoder left_encoder = encoder(rig, rig.encoders.left, "left encoder");
   Encoder right_encoder = encoder(rig, rig.encoders.right, "right encoder");
+  RollingNoise rolling(scenario.noise.wheel_noise_m_per_sqrt_m, rig);
   CableLayer cables(scenario, spec, plan);
+  TrackKeeper track(scenario, spec, plan);
   Recorder recorder(scenario, spec);
   WheelSpeeds command;
   int segment = 0;
@@ -172,16 +177,18 @@ DrivenRun drive_run(const Scenario& scenario, const RobotModel& nominal, const O
     const std::int64_t left = left_encoder.read(time_s, world.encoder_angle(0));
     const std::int64_t right = right_encoder.read(time_s, world.encoder_angle(1));
     reckoning.update(left, right);
-    recorder.encoders(time_s, left, right, command);
-    recorder.truth(period, periods, time_s, world.pose());
-    if (period == periods) break;
     segment = plan.at(time_s, segment).segment;
+    track.fix_if_due(segment, world.pose(), reckoning);
+    recorder.encoders(time_s, left, right, command);
+    if (recorder.truth(period, periods, time_s, world.pose())) track.note(world.pose(), reckoning);
+    if (period == periods) break;
     cables.lay_if_due(reckoning.pose(), segment, world, rig, recorder.run);
     command = period < driven ? drive(plan, time_s, period_s, reckoning.pose(), believed, segment) : WheelSpeeds{};
+    rolling.roughen(world, command, period_s);
     world.command(command.left_radps, command.right_radps);
     world.advance(period_s);
   }
-  return {std::move(recorder.run), world.cost()};
+  return {std::move(recorder.run), std::move(track.track), world.cost()};
 }
 
 }  // namespace umbsim

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "experiment/pose_track.h"
 #include "experiment/scenario.h"
 #include "recording/recording.h"
 
@@ -16,6 +17,7 @@ struct RunSpec {
 /// What a run left behind, and what it cost.
 struct DrivenRun {
   RecordedRun run;
+  PoseTrack track;
   PhysicsCost cost;
 };
 

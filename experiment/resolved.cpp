@@ -29,6 +29,22 @@ std::string bumps_block(const BumpChoice& b) {
   return text;
 }
 
+// Like cables: what is off is left out.
+std::string uncertainty_block(const Scenario& s) {
+  std::string text;
+  if (s.uncertainty.any()) {
+    text += fmt::format("uncertainty:\n  left_m_per_sqrt_m: {}\n  right_m_per_sqrt_m: {}\n",
+                        s.uncertainty.left_m_per_sqrt_m, s.uncertainty.right_m_per_sqrt_m);
+  }
+  if (s.fixes.empty()) return text;
+  text += "fixes:\n";
+  for (const AbsoluteFix& fix : s.fixes) {
+    text += fmt::format("  - {{leg: {}, position_sd_m: {}, heading_sd_rad: {}}}\n", fix.leg, fix.noise.position_sd_m,
+                        fix.noise.heading_sd_rad);
+  }
+  return text;
+}
+
 std::string effects_block(const std::vector<Effect>& effects) {
   if (effects.empty()) return "effects: {}\n";
   std::string text = "effects:\n";
@@ -77,9 +93,12 @@ std::string resolved_yaml(const Scenario& s) {
   text += s.bumps.any() ? bumps_block(s.bumps) : "";
   text += fmt::format("noise:\n  floor_rms_m: {}\n  floor_wavelength_m: {}\n  radius_scatter: {}\n",
                       s.noise.floor_rms_m, s.noise.floor_wavelength_m, s.noise.radius_scatter);
+  if (s.noise.wheel_noise_m_per_sqrt_m > 0) {
+    text += fmt::format("  wheel_noise_m_per_sqrt_m: {}\n", s.noise.wheel_noise_m_per_sqrt_m);
+  }
   text += fmt::format("truth:\n  kind: {}\n  rate_hz: {}\n  position_sd_m: {}\n  heading_sd_rad: {}\n", s.truth.kind,
                       s.truth.rate_hz, s.truth.position_sd_m, s.truth.heading_sd_rad);
-  text += odometry_block(s.odometry);
+  text += odometry_block(s.odometry) + uncertainty_block(s);
   text += fmt::format("calibration:\n  method: {}\n  max_passes: {}\n", name(s.calibration.method),
                       s.calibration.max_passes);
   text += fmt::format(

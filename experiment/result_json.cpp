@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,13 @@ namespace {
 
 Json odometry_json(const OdometryParameters& o) {
   return {{"left_radius_m", o.left_radius_m}, {"right_radius_m", o.right_radius_m}, {"wheelbase_m", o.wheelbase_m}};
+}
+
+Json one_direction_json(const Cluster& c) {
+  return {{"r_cg_m", c.r_cg_m},
+          {"e_theta_rad", c.heading_rad},
+          {"rms_m", error_shares(c).rms_m},
+          {"runs", c.errors.size()}};
 }
 
 // One direction alone (lecture 7.4): the smaller of both return errors is what a careless test would report.
@@ -33,6 +41,75 @@ Json one_way_json(const ExperimentResult& r) {
         "Only one direction was driven. One E_d can be hidden by one E_b: a one-way test is unfit for differential "
         "drives. Drive both.";
   }
+  if (has_cw) json["cw"] = one_direction_json(r.cw);
+  if (has_ccw) json["ccw"] = one_direction_json(r.ccw);
+  return json;
+}
+
+// Systematic against non-systematic. A single run has no spread, and so no shares.
+Json shares_json(const ErrorShares& s, bool spread_is_known) {
+  const auto known = [&](double value) { return spread_is_known ? Json(value) : Json(); };
+  return {{"systematic", known(s.systematic)},     {"non_systematic", known(s.non_systematic)},
+          {"rms_m", s.rms_m},                      {"systematic_m", s.systematic_m},
+          {"non_systematic_m", known(s.non_systematic_m)}};
+}
+
+Json shares_json(const ExperimentResult& r) {
+  std::vector<ErrorShares> directions;
+  Json parts;
+  bool all_known = true;
+  for (const auto& [c, direction] : {std::pair{&r.cw, "cw"}, std::pair{&r.ccw, "ccw"}}) {
+    if (c->errors.empty()) continue;
+    const bool known = c->errors.size() > 1;
+    directions.push_back(error_shares(*c));
+    parts[direction] = shares_json(directions.back(), known);
+    all_known = all_known && known;
+  }
+  Json json = shares_json(error_shares(directions), all_known);
+  json.update(parts);
+  return json;
+}
+
+Json covariance_json(const PoseCovariance& P) {
+  Json rows = Json::array();
+  for (int i = 0; i < 3; ++i) rows.push_back(Json::array({P(i, 0), P(i, 1), P(i, 2)}));
+  return rows;
+}
+
+// Of the plain runs of one direction.
+Json figures_json(const Recording& recording, const std::vector<PoseTrack>& tracks, const char* direction) {
+  std::vector<const PoseTrack*> chosen;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const RecordedRun& run = recording.runs[i];
+    const bool bumped = !run.bumps.empty() || run.inner_wheel_bumps;
+    if (!bumped && run.direction == direction) chosen.push_back(&tracks[i]);
+  }
+  const UncertaintyFigures f = uncertainty_figures(chosen);
+  if (f.runs == 0) return {};
+  const Ellipse e = ellipse_95(f.end_covariance);
+  return {{"runs", f.runs},
+          {"end_covariance", covariance_json(f.end_covariance)},
+          {"ellipse_95_semi_axes_m", {e.a_m, e.b_m}},
+          {"ellipse_95_angle_rad", e.angle_rad},
+          {"heading_sd_rad", std::sqrt(f.end_covariance(2, 2))},
+          {"inside_95_share", f.end_inside_95_share},
+          {"inside_95_share_on_the_way", f.way_inside_95_share}};
+}
+
+void add_figures(Json& json, const Recording& recording, const std::vector<PoseTrack>& tracks) {
+  for (const char* direction : {"cw", "ccw"}) {
+    Json figures = figures_json(recording, tracks, direction);
+    if (!figures.is_null()) json[direction] = std::move(figures);
+  }
+}
+
+// Predicted ellipses at the end of the runs, and how often the true end lies in them.
+Json uncertainty_json(const ExperimentResult& r) {
+  Json json{{"left_m_per_sqrt_m", r.scenario.uncertainty.left_m_per_sqrt_m},
+            {"right_m_per_sqrt_m", r.scenario.uncertainty.right_m_per_sqrt_m},
+            {"fixes", r.scenario.fixes.size()}};
+  add_figures(json, r.recording, r.tracks);
+  if (!r.passes.empty()) add_figures(json["after"], r.passes.back().recording, r.passes.back().tracks);
   return json;
 }
 
@@ -55,47 +132,6 @@ Json recovery_json(const ExperimentResult& r) {
             {"odometry", odometry_json(last.odometry)},
             {"after", umbmark_json(last.umbmark)}};
   return json;
-}
-
-// At most this many poses of a run go into the page.
-constexpr std::size_t kPagePoses = 400;
-
-double rounded(double value) { return std::round(value * 1e6) / 1e6; }
-
-Json path_json(const Pose2& p) { return Json::array({rounded(p.x_m), rounded(p.y_m), rounded(p.theta_rad)}); }
-
-// Truth and odometry at the same moments, in the floor frame.
-void add_paths(Json& json, const RecordedRun& run, const OdometryParameters& odometry) {
-  json["truth"] = Json::array();
-  json["odometry"] = Json::array();
-  const std::size_t stride = 1 + run.truth.size() / kPagePoses;
-  DeadReckoning reckoning(odometry, run.truth.front().X_WB, run.encoders.front().left_ticks,
-                          run.encoders.front().right_ticks);
-  std::size_t e = 0;
-  for (std::size_t i = 0; i < run.truth.size(); ++i) {
-    for (; e < run.encoders.size() && run.encoders[e].time_s <= run.truth[i].time_s + 1e-9; ++e) {
-      reckoning.update(run.encoders[e].left_ticks, run.encoders[e].right_ticks);
-    }
-    if (i % stride != 0 && i + 1 != run.truth.size()) continue;
-    json["truth"].push_back(path_json(run.truth[i].X_WB));
-    json["odometry"].push_back(path_json(reckoning.pose()));
-  }
-}
-
-void add_runs(Json& json, const Recording& recording, const OdometryParameters& odometry, const char* stage) {
-  for (const RecordedRun& run : recording.runs) {
-    const bool bumped = !run.bumps.empty() || run.inner_wheel_bumps;
-    const ReturnError e = return_error(run, odometry);
-    Json item{{"id", run.id},
-              {"direction", run.direction},
-              {"stage", bumped ? "bumped" : stage},
-              {"error", {{"x_m", e.x_m}, {"y_m", e.y_m}, {"theta_rad", e.theta_rad}}}};
-    add_paths(item, run, odometry);
-    json["runs"].push_back(std::move(item));
-    for (const RecordedBump& b : run.bumps) {
-      json["bumps"].push_back({{"run", run.id}, {"x_m", b.x_m}, {"y_m", b.y_m}, {"height_m", b.height_m}});
-    }
-  }
 }
 
 }  // namespace
@@ -128,6 +164,8 @@ Json summary_json(const ExperimentResult& r) {
   Json json{{"format", "umbsim-result/1"}, {"scenario", r.scenario.name}, {"seed", r.scenario.seed}};
   if (r.umbmark) json["umbmark"] = umbmark_json(*r.umbmark);
   json["one_way"] = one_way_json(r);
+  json["shares"] = shares_json(r);
+  if (r.scenario.uncertainty.any()) json["uncertainty"] = uncertainty_json(r);
   if (r.extended) {
     const ExtendedUmbmark& e = *r.extended;
     json["extended"] = {{"mean_abs_heading_error_rad", e.mean_abs_heading_error_rad},
@@ -148,23 +186,6 @@ Json summary_json(const ExperimentResult& r) {
                   {"steps", r.cost.steps},
                   {"newton_steps", r.cost.newton_steps},
                   {"solver_fallbacks", r.cost.solver_fallbacks}};
-  return json;
-}
-
-Json report_json(const ExperimentResult& r) {
-  Json json{{"title", r.recording.title},
-            {"scenario", r.scenario.name},
-            {"description", r.scenario.description},
-            {"version", build_info().version},
-            {"seed", r.scenario.seed},
-            {"side_m", r.scenario.course.side_m},
-            {"wheelbase_m", r.odometry.wheelbase_m},
-            {"summary", summary_json(r)}};
-  json["summary"]["cost"].erase("wall_s");  // the page is the same bytes on every run
-  json["runs"] = Json::array();
-  json["bumps"] = Json::array();
-  add_runs(json, r.recording, r.odometry, "before");
-  if (!r.passes.empty()) add_runs(json, r.passes.back().recording, r.passes.back().odometry, "after");
   return json;
 }
 

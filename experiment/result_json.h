@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiment/explain.h"
 #include "experiment/run.h"
 
 namespace umbsim {
@@ -17,6 +18,9 @@ Json summary_json(const ExperimentResult& result);
 
 /// What the report page is made from: the summary, and the runs with their paths thinned out.
 Json report_json(const ExperimentResult& result);
+
+/// explain.json (format umbsim-explanation/1).
+Json explanation_json(const Scenario& scenario, const Explanation& explanation);
 
 /// provenance.json: version, commit, seed, compiler, Bullet version, host.
 /// `input`: the file or folder that was read.

@@ -25,23 +25,22 @@ std::vector<RunSpec> plan_runs(const Scenario& s, bool bumped, int first_number)
   return specs;
 }
 
-std::vector<RecordedRun> drive_all(ExperimentResult& result, const OdometryParameters& odometry,
-                                   const std::vector<RunSpec>& specs) {
+void drive_all(ExperimentResult& result, const OdometryParameters& odometry, const std::vector<RunSpec>& specs,
+               Recording& recording, std::vector<PoseTrack>& tracks) {
   Progress progress("driving", int(specs.size()));
   std::vector<DrivenRun> driven(specs.size());
   tbb::parallel_for(std::size_t(0), specs.size(), [&](std::size_t i) {
     driven[i] = drive_run(result.scenario, result.nominal, odometry, specs[i]);
     progress.step();
   });
-  std::vector<RecordedRun> runs;
   for (DrivenRun& d : driven) {
     result.cost.steps += d.cost.steps;
     result.cost.newton_steps += d.cost.newton_steps;
     result.cost.solver_fallbacks += d.cost.solver_fallbacks;
     result.cost.simulated_s += d.cost.simulated_s;
-    runs.push_back(std::move(d.run));
+    recording.runs.push_back(std::move(d.run));
+    tracks.push_back(std::move(d.track));
   }
-  return runs;
 }
 
 Recording empty_recording(const Scenario& s, const RobotModel& nominal, const OdometryParameters& odometry) {
@@ -88,10 +87,10 @@ void calibrate_and_drive_again(ExperimentResult& result, int next_number) {
   result.passes.reserve(std::size_t(choice.max_passes));
   for (int pass = 0; pass < choice.max_passes && (pass == 0 || another_pass(*last)); ++pass) {
     odometry = corrected(odometry, estimate(*last, method));
-    CalibrationPass done{odometry, empty_recording(result.scenario, result.nominal, result.odometry), {}};
+    CalibrationPass done{odometry, empty_recording(result.scenario, result.nominal, result.odometry), {}, {}};
     const std::vector<RunSpec> specs = plan_runs(result.scenario, false, next_number);
     next_number += int(specs.size());
-    done.recording.runs = drive_all(result, odometry, specs);
+    drive_all(result, odometry, specs, done.recording, done.tracks);
     done.umbmark = umbmark(done.recording, odometry);
     result.passes.push_back(std::move(done));
     last = &result.passes.back().umbmark;
@@ -125,7 +124,7 @@ ExperimentResult run_experiment(const Scenario& scenario, int jobs) {
     specs.insert(specs.end(), bumped.begin(), bumped.end());
   }
   result.recording = empty_recording(scenario, result.nominal, result.odometry);
-  result.recording.runs = drive_all(result, result.odometry, specs);
+  drive_all(result, result.odometry, specs, result.recording, result.tracks);
   measure(result);
 
   calibrate_and_drive_again(result, int(specs.size()));

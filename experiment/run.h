@@ -15,6 +15,7 @@ namespace umbsim {
 struct CalibrationPass {
   OdometryParameters odometry;
   Recording recording;
+  std::vector<PoseTrack> tracks;  ///< of each of its runs
   Umbmark umbmark;
 };
 
@@ -30,6 +31,7 @@ struct ExperimentResult {
   RobotModel nominal;
   OdometryParameters odometry;
   Recording recording;                 ///< plain runs, then bumped ones
+  std::vector<PoseTrack> tracks;       ///< of each of its runs; empty ones if the scenario has no `uncertainty`
   Cluster cw;
   Cluster ccw;
   std::optional<Umbmark> umbmark;      ///< both directions were driven

@@ -45,11 +45,12 @@ void check_output_folder(const fs::path& given, bool force) {
 
 void prepare_output_folder(const fs::path& given, bool force) {
   check_output_folder(given, force);
-  const fs::path parent = fs::absolute(without_slash(given)).parent_path();
+  // Writable is asked of the nearest folder that exists; nothing is left there.
+  fs::path parent = fs::absolute(without_slash(given)).parent_path();
   std::error_code error;
-  fs::create_directories(parent, error);
+  while (!fs::exists(parent, error) && parent.has_relative_path()) parent = parent.parent_path();
   const fs::path probe = parent / fmt::format(".umbsim.{}.probe", getpid());
-  if (!error) fs::create_directory(probe, error);
+  fs::create_directory(probe, error);
   if (error) fail(given, error);
   fs::remove(probe, error);
 }

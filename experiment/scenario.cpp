@@ -1,9 +1,10 @@
 #include "experiment/scenario.h"
 
-#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
+
+#include "experiment/settings.h"
 
 namespace umbsim {
 namespace {
@@ -118,6 +119,7 @@ NoiseChoice read_noise(const YamlValue& value) {
   n.floor_rms_m = map.number("floor_rms_m", 0, Bounds::between(0, 0.02));
   n.floor_wavelength_m = map.number("floor_wavelength_m", n.floor_wavelength_m, Bounds::between(0.02, 100));
   n.radius_scatter = map.number("radius_scatter", 0, Bounds::between(0, 0.1));
+  n.wheel_noise_m_per_sqrt_m = map.number("wheel_noise_m_per_sqrt_m", 0, Bounds::between(0, 0.005));
   map.finish();
   return n;
 }
@@ -144,6 +146,33 @@ OdometryChoice read_odometry(const YamlValue& value) {
   return o;
 }
 
+PathNoise read_uncertainty(const YamlValue& value) {
+  YamlMap map(value);
+  PathNoise n;
+  n.left_m_per_sqrt_m = map.number("left_m_per_sqrt_m", 0, Bounds::between(0, 1));
+  n.right_m_per_sqrt_m = map.number("right_m_per_sqrt_m", 0, Bounds::between(0, 1));
+  map.finish();
+  return n;
+}
+
+std::vector<AbsoluteFix> read_fixes(const YamlValue& value, const Course& course, const PathNoise& uncertainty) {
+  std::vector<AbsoluteFix> fixes;
+  for (const YamlValue& item : value.list()) {
+    YamlMap map(item);
+    AbsoluteFix f;
+    f.leg = int(map.at("leg").integer(1, 4 * course.laps));
+    f.noise.position_sd_m = map.number("position_sd_m", f.noise.position_sd_m, {0, 10, true});
+    f.noise.heading_sd_rad = map.number("heading_sd_rad", f.noise.heading_sd_rad, {0, 10, true});
+    map.finish();
+    fixes.push_back(f);
+  }
+  if (!fixes.empty() && !uncertainty.any()) {
+    value.fail("an absolute fix needs uncertainty.left_m_per_sqrt_m and right_m_per_sqrt_m: an odometry that believes "
+               "itself exact learns nothing from it");
+  }
+  return fixes;
+}
+
 CalibrationChoice read_calibration(const YamlValue& value) {
   YamlMap map(value);
   CalibrationChoice c;
@@ -168,54 +197,6 @@ PhysicsOptions read_physics(const YamlValue& value) {
   return p;
 }
 
-// The same value without its place in a text: errors about it then name the key, and no line of the scenario file.
-YAML::Node without_marks(const YAML::Node& node) {
-  YAML::Node copy(node.Type());
-  if (node.IsScalar()) copy = node.Scalar();
-  for (const auto& entry : node) {
-    if (node.IsMap()) copy[entry.first.Scalar()] = without_marks(entry.second);
-    else copy.push_back(without_marks(entry));
-  }
-  copy.SetTag(node.Tag());
-  return copy;
-}
-
-// Puts the value of `a.b.c=value` into the document.
-void set_value(const YamlValue& document, const std::string& setting) {
-  const std::size_t equals = setting.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    throw InputError("--set " + setting + ": must have the form key.path=value, as in course.side_m=2");
-  }
-  YAML::Node node = document.node();
-  const std::string path = setting.substr(0, equals);
-  for (std::size_t begin = 0; begin <= path.size();) {
-    const std::size_t dot = std::min(path.find('.', begin), path.size());
-    if (dot == begin) throw InputError("--set " + setting + ": empty part in the key path");
-    if (node.IsDefined() && !node.IsNull() && !node.IsMap()) {
-      throw InputError("--set " + setting + ": '" + path.substr(0, begin - 1) + "' is not a map");
-    }
-    YAML::Node child = node[path.substr(begin, dot - begin)];
-    node.reset(child);
-    begin = dot + 1;
-  }
-  const std::string text = setting.substr(equals + 1);
-  if (text.empty()) throw InputError("--set " + setting + ": a value is missing after the =");
-  node = without_marks(YamlValue::parse(text, "--set " + setting).node());
-}
-
-std::string robots_directory() {
-  const char* chosen = std::getenv("UMBSIM_ROBOTS");
-  return chosen ? chosen : UMBSIM_ROBOTS_DIR;
-}
-
-std::string find_urdf(const Scenario& s) {
-  const fs::path given = s.robot.urdf;
-  if (given.is_absolute()) return given;
-  const fs::path beside = fs::path(s.file).parent_path() / given;
-  if (fs::exists(beside)) return beside;
-  return fs::path(robots_directory()) / given;
-}
-
 }  // namespace
 
 const char* name(BumpWheel wheel) {
@@ -230,7 +211,7 @@ const char* name(Calibrate method) {
 
 Scenario read_scenario(const std::string& file, const std::vector<std::string>& settings) {
   const YamlValue document = YamlValue::load(file);
-  for (const std::string& setting : settings) set_value(document, setting);
+  for (const std::string& setting : settings) apply_setting(document, setting);
   YamlMap map(document);
   Scenario s;
   s.file = file;
@@ -250,23 +231,13 @@ Scenario read_scenario(const std::string& file, const std::vector<std::string>& 
   if (const auto v = map.find("noise")) s.noise = read_noise(*v);
   if (const auto v = map.find("truth")) s.truth = read_truth(*v);
   if (const auto v = map.find("odometry")) s.odometry = read_odometry(*v);
+  if (const auto v = map.find("uncertainty")) s.uncertainty = read_uncertainty(*v);
+  if (const auto v = map.find("fixes")) s.fixes = read_fixes(*v, s.course, s.uncertainty);
   if (const auto v = map.find("calibration")) s.calibration = read_calibration(*v);
   if (const auto v = map.find("physics")) s.physics = read_physics(*v);
   if (const auto v = map.find("effects")) s.effects = read_effects(*v);
   map.finish();
   return s;
-}
-
-RobotModel load_scenario_robot(const Scenario& scenario) {
-  RobotModel robot = load_robot(find_urdf(scenario), scenario.robot.joints);
-  for (Caster& caster : robot.casters) caster.friction = scenario.robot.caster_friction;
-  return robot;
-}
-
-OdometryParameters initial_odometry(const Scenario& s, const RobotModel& nominal) {
-  return {s.odometry.left_radius_m.value_or(nominal.wheels[0].radius_m),
-          s.odometry.right_radius_m.value_or(nominal.wheels[1].radius_m),
-          s.odometry.wheelbase_m.value_or(nominal.wheelbase_m()), s.encoders.ticks_per_revolution};
 }
 
 }  // namespace umbsim

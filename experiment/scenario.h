@@ -6,6 +6,7 @@
 
 #include "effects/catalogue.h"
 #include "odometry/dead_reckoning.h"
+#include "odometry/uncertainty.h"
 #include "sim/world.h"
 #include "umbmark/course.h"
 
@@ -53,6 +54,13 @@ struct NoiseChoice {
   double floor_rms_m = 0;           ///< root mean square height of an uneven floor, a new place on it for each run
   double floor_wavelength_m = 0.3;
   double radius_scatter = 0;        ///< standard deviation of each wheel's relative radius from run to run
+  double wheel_noise_m_per_sqrt_m = 0;  ///< rough rolling: the variance of a wheel's path is this squared, per metre
+};
+
+/// The pose is measured at the end of this leg, before the turn, and corrects the odometry that the driver uses.
+struct AbsoluteFix {
+  int leg = 1;
+  FixNoise noise;
 };
 
 struct TruthChoice {
@@ -84,6 +92,8 @@ struct Scenario {
   NoiseChoice noise;
   TruthChoice truth;
   OdometryChoice odometry;
+  PathNoise uncertainty;  ///< what the odometry believes of its own random errors
+  std::vector<AbsoluteFix> fixes;
   CalibrationChoice calibration;
   PhysicsOptions physics;
   std::vector<Effect> effects;

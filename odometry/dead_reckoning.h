@@ -33,6 +33,9 @@ class DeadReckoning {
     X_OB_ = X_OB_ * arc((left_m + right_m) / 2, (right_m - left_m) / parameters_.wheelbase_m);
   }
 
+  /// Goes on from here: an absolute measurement knows better.
+  void correct(const Pose2& X_OB) { X_OB_ = X_OB; }
+
   const Pose2& pose() const { return X_OB_; }
 
  private:

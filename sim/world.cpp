@@ -44,8 +44,12 @@ World::State::State(const RobotModel& r, const Drivetrain& d, const Floor& f, co
 
 double World::State::load(const Support& s) const { return s.wheel < 0 ? 0 : loads.wheel_n[s.wheel]; }
 
-double World::State::rolling_radius(const Support& s) const {
+double World::State::loaded_radius(const Support& s) const {
   return s.wheel < 0 ? s.radius_m : s.radius_m - robot.wheels[s.wheel].compliance_mpn * load(s);
+}
+
+double World::State::rolling_radius(const Support& s) const {
+  return s.wheel < 0 ? s.radius_m : radius_factor[s.wheel] * loaded_radius(s);
 }
 
 // Base frame. An eccentric wheel carries its rim's centre round its axle.
@@ -58,7 +62,7 @@ Vector3d World::State::rim_centre(const Support& s, const Joint& hinge) const {
 }
 
 RollingShape World::State::shape(const Support& s) const {
-  const double radius_m = rolling_radius(s) + s.sink_m;
+  const double radius_m = loaded_radius(s) + s.sink_m;
   if (s.joint < 0) return {body.position() + body.rotation() * s.centre_m, Vector3d::Zero(), radius_m};
   const Joint at = body.current(s.joint);
   return {body.position() + body.rotation() * rim_centre(s, at),
@@ -102,6 +106,7 @@ void World::place(const Pose2& X_WB) {
   s.place_on_floor(X_WB);
   s.heading_rad = X_WB.theta_rad;
   s.command_radps = s.last_command_radps = s.set_point_radps = {};
+  s.radius_factor = {1, 1};
   s.time_s = -kSettle_s;
   for (int i = 0; i < 2; ++i) s.shaft_rad[i] = s.body.joint_angle(i);
   advance(kSettle_s);
@@ -124,6 +129,8 @@ void World::advance(double duration_s) {
 }
 
 void World::lay_cable(const Cable& cable) { state_->floor.cables.push_back(cable); }
+
+void World::scale_rolling_radius(int wheel, double factor) { state_->radius_factor[wheel] = factor; }
 
 Pose2 World::pose() const {
   const Vector3d& p = state_->body.position();

@@ -65,6 +65,10 @@ class World {
 
   void lay_cable(const Cable& cable);
 
+  /// From now on the wheel rolls as if its radius were `factor` times as large; where it touches is as before. A rough
+  /// floor or tyre does this, other at every grain.
+  void scale_rolling_radius(int wheel, double factor);
+
   /// Pose of the axle's middle, projected on the floor plane; heading unwrapped.
   Pose2 pose() const;
   /// 0 left, 1 right; radians since `place`, relative to the base, forward positive.

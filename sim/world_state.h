@@ -50,6 +50,7 @@ struct World::State {
   std::array<double, 2> zero_angle_rad{};
   std::array<double, 2> set_point_radps{};   // behind the motors' lag
   std::array<double, 2> shaft_rad{};         // motor side of the backlash
+  std::array<double, 2> radius_factor{1, 1};  // of rolling, not of the shape
   double time_s = 0;                         // since place
   double heading_rad = 0;
 
@@ -68,6 +69,7 @@ struct World::State {
 
   RollingShape shape(const Support& s) const;
   Eigen::Vector3d rim_centre(const Support& s, const Joint& hinge) const;
+  double loaded_radius(const Support& s) const;
   double rolling_radius(const Support& s) const;
   double load(const Support& s) const;
   std::array<double, 2> follow_commands(double step_s, double part);

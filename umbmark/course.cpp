@@ -57,10 +57,15 @@ Plan::Plan(const Course& course, Direction direction) {
   }
 }
 
-Reference Plan::at(double time_s, int segment_hint) const {
-  int i = std::clamp(segment_hint, 0, int(segments_.size()) - 1);
+int Plan::segment_at(double time_s, int hint) const {
+  int i = std::clamp(hint, 0, int(segments_.size()) - 1);
   while (i > 0 && segments_[i].start_s > time_s) --i;
   while (i + 1 < int(segments_.size()) && segments_[i + 1].start_s <= time_s) ++i;
+  return i;
+}
+
+Reference Plan::at(double time_s, int segment_hint) const {
+  const int i = segment_at(time_s, segment_hint);
   const Segment& s = segments_[i];
   const double part = extent_at(s, time_s - s.start_s) / extent(s);
   return {s.X_SB_start * arc(part * s.length_m, part * s.angle_rad), i};

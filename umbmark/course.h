@@ -51,7 +51,8 @@ class Plan {
 
   const std::vector<Segment>& segments() const { return segments_; }
   double duration_s() const { return duration_s_; }  ///< with dwells
-  /// `segment_hint`: the segment of the last call, so that the search is short.
+  /// `hint`: the segment of the last call, so that the search is short.
+  int segment_at(double time_s, int hint = 0) const;
   Reference at(double time_s, int segment_hint = 0) const;
 
  private:

@@ -79,6 +79,40 @@ Cluster cluster(std::vector<ReturnError> errors) {
   return c;
 }
 
+namespace {
+
+ErrorShares shares_of_squares(double systematic_m2, double non_systematic_m2) {
+  ErrorShares s;
+  const double total_m2 = systematic_m2 + non_systematic_m2;
+  s.rms_m = std::sqrt(total_m2);
+  s.systematic_m = std::sqrt(systematic_m2);
+  s.non_systematic_m = std::sqrt(non_systematic_m2);
+  if (total_m2 == 0) return s;
+  s.systematic = systematic_m2 / total_m2;
+  s.non_systematic = non_systematic_m2 / total_m2;
+  return s;
+}
+
+}  // namespace
+
+ErrorShares error_shares(const Cluster& c) {
+  double spread_m2 = 0;
+  for (const ReturnError& e : c.errors) {
+    const double x = e.x_m - c.centroid_x_m, y = e.y_m - c.centroid_y_m;
+    spread_m2 += (x * x + y * y) / double(c.errors.size());
+  }
+  return shares_of_squares(c.r_cg_m * c.r_cg_m, c.errors.size() > 1 ? spread_m2 : 0);
+}
+
+ErrorShares error_shares(const std::vector<ErrorShares>& directions) {
+  double systematic_m2 = 0, non_systematic_m2 = 0;
+  for (const ErrorShares& d : directions) {
+    systematic_m2 += d.systematic_m * d.systematic_m / double(directions.size());
+    non_systematic_m2 += d.non_systematic_m * d.non_systematic_m / double(directions.size());
+  }
+  return shares_of_squares(systematic_m2, non_systematic_m2);
+}
+
 // Borenstein & Feng 1996: R = (L/2) / sin(beta/2), E_d = (R + b/2) / (R - b/2), E_b = 90 deg / (90 deg - alpha).
 // Written with 1/R, which stays finite for beta = 0.
 ErrorEstimate error_estimate(double alpha_rad, double beta_rad, double side_m, double wheelbase_m) {

@@ -54,10 +54,14 @@ struct Umbmark {
   double type_b_share = 0;
 };
 
-/// One direction alone (lecture 7.4): unfit for differential drives.
-struct OneWay {
-  double r_cg_m = 0;
-  double e_theta_rad = 0;
+/// How much of the return position errors comes again in every run, and how much does not. The mean square error is
+/// the sum of both squares, exactly: rms^2 = systematic^2 + non_systematic^2.
+struct ErrorShares {
+  double rms_m = 0;             ///< of the distances between absolute and calculated end point
+  double systematic_m = 0;      ///< r_cg: what calibration can remove
+  double non_systematic_m = 0;  ///< rms distance of the end points from their centroid
+  double systematic = 0;        ///< shares of the mean square error; both 0 if there is no error
+  double non_systematic = 0;
 };
 
 /// Extended UMBmark (Borenstein 1994).
@@ -78,6 +82,10 @@ std::vector<ReturnError> return_errors(const Recording& recording, const Odometr
 ReturnError return_error(const RecordedRun& run, const OdometryParameters& odometry);
 
 Cluster cluster(std::vector<ReturnError> errors);
+
+ErrorShares error_shares(const Cluster& cluster);
+/// Of all runs of several directions together, each direction weighing the same. One run of a direction has no spread.
+ErrorShares error_shares(const std::vector<ErrorShares>& directions);
 
 /// Square runs only. `nominal_wheelbase_m` is the odometry's. Throws std::invalid_argument if a direction is empty.
 Umbmark umbmark(Cluster cw, Cluster ccw, double side_m, double nominal_wheelbase_m);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bench/fidelity/robots.h"
+#include "core/pose2.h"
 
 namespace umbsim::fidelity {
 
@@ -22,8 +23,10 @@ struct CableOutcome {
   bool crossed = false;
   double heading_rad = 0;  ///< that the odometry does not see, towards the bumped wheel
   double ratio = 0;        ///< to the closed form
+  Pose2 X_WB;              ///< at the end
   std::int64_t solver_fallbacks = 0;
 };
+CableOutcome cross(const CableCase& c);
 
 /// Closed form of a rigid wheel on a round cable.
 struct Climb {
@@ -32,12 +35,10 @@ struct Climb {
 };
 Climb closed_form(double radius_m, double cable_height_m);
 
-CableOutcome cross(const CableCase& c);
+/// The limit in which the closed form is meant: supports that sink by a share of the cable's height, slow, fine steps.
+CableCase in_rigid_limit(CableCase c, double sink_share = 0.01);
 
-/// The limit in which the closed form is meant: contacts a hundred times stiffer than the cable is high, slow, fine.
-CableCase in_rigid_limit(CableCase c);
-
-/// R, b, h, speed, friction.
+/// Robots, heights and frictions at the default settings, left wheel.
 std::vector<CableCase> cable_grid(Grid grid);
 
 std::string cable_chapter(Grid grid);

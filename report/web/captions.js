@@ -15,6 +15,21 @@ const CAPTIONS = {
     odometry + factor × (truth − odometry)); at ×1 the picture is true to scale. The line at the end joins the two end
     points: the return error.`,
 
+  ellipses: ` <b>Ellipses</b>: where the odometry expects the true position 95 times in a hundred, if its wheels err as it
+    believes, at random along the path. They are enlarged like the error. They grow with the distance, fastest across the
+    direction of travel, because a heading error turns the whole path ahead, and they shrink at an absolute fix. After a
+    fix the robot steers by the corrected estimate, on which the ellipses are centred; the dashed line goes on as the
+    ticks alone say. Ellipses know nothing of systematic errors: of an uncalibrated robot the truth runs out of them.`,
+
+  shares: `The mean square of the return errors splits exactly: rms² = r<sub>cg</sub>² + spread². The <b>systematic</b>
+    part comes again in every run, and calibration removes it; the <b>non-systematic</b> part does not, and no
+    calibration can. On a smooth floor the systematic part dominates, on a rough one the other. With
+    n runs r<sub>cg</sub>² itself still holds an n-th of spread².`,
+
+  uncertainty: `Predicted from the random error of each wheel's path alone (variance k² per metre; Chong &amp; Kleeman) by
+    propagating the covariance through every arc. If the prediction is right, and no systematic error is left, 95 % of
+    the true ends lie inside.`,
+
   growth: `Difference of true and calculated pose over the distance driven, for the runs chosen in figure 2 (thick) and
     the other runs of the same kind (thin). Dotted lines mark the turns of the first run. A wrong wheelbase shows as a
     step of the heading error at each turn, unequal wheels as a steady slope along each leg; a heading error, once made,

@@ -73,6 +73,8 @@ function buildPage(data) {
     <section id="growth" hidden></section>
     ${section("One-way test", oneWayHtml(data))}
     ${section("Two-way test (UMBmark)", umbmarkHtml(data))}
+    ${section("Systematic and non-systematic error", sharesTableHtml(data))}
+    ${section("Pose uncertainty", uncertaintyHtml(data))}
     ${section("Extended UMBmark", extendedHtml(data))}
     ${section("Calibration", calibrationHtml(data) + recoveryHtml(data))}
     ${section("All runs", returnErrorsHtml(data))}

@@ -27,7 +27,7 @@ function largestError(run) {
 // The largest factor up to 20 that keeps the shown error below an eighth of the course.
 function defaultExaggeration(runs) {
   const size = Math.max(...runs.map((r) => boundsSpan(boundsOf(r.odometry))));
-  const error = Math.max(1e-9, ...runs.map(largestError));
+  const error = Math.max(1e-9, ...runs.map((r) => Math.max(largestError(r), largestEllipse(r))));
   return Math.max(1, Math.min(20, Math.floor(size / 8 / error)));
 }
 
@@ -58,7 +58,7 @@ function setupPaths(data, section, selection, onChange) {
                aria-describedby="exaggeration-help"><output></output></label></div>
       <div class="panels">${directions.map(panel).join("")}</div>
       ${legendHtml(pathLegend(data, directions))}
-      <figcaption id="exaggeration-help">${CAPTIONS.paths}</figcaption>
+      <figcaption id="exaggeration-help">${CAPTIONS.paths}${hasEllipses(data) ? CAPTIONS.ellipses : ""}</figcaption>
     </figure>`;
 
   function panel(direction) {
@@ -77,7 +77,8 @@ function setupPaths(data, section, selection, onChange) {
     section.querySelector("output").textContent = `\u00d7${k}`;
     section.querySelector("input").setAttribute("aria-valuetext", `${k} times`);
     const views = Object.values(selection).map(
-        (run) => boundsOf([...run.odometry, ...exaggerated(run, k), ...bumpsShown(data, run, k)]));
+        (run) => boundsOf(
+            [...run.odometry, ...exaggerated(run, k), ...bumpsShown(data, run, k), ...ellipseCorners(run, k)]));
     const span = Math.max(...views.map(boundsSpan), 0.01) * 1.1;
     for (const element of section.querySelectorAll(".panel")) {
       const run = selection[element.dataset.direction];
@@ -133,7 +134,7 @@ function pathSvg(data, run, k, span, width) {
   const truth = exaggerated(run, k);
   const odometry = run.odometry.slice(0, truth.length);
   const bumps = bumpsShown(data, run, k);
-  const b = boundsOf([...truth, ...odometry, ...bumps]);
+  const b = boundsOf([...truth, ...odometry, ...bumps, ...ellipseCorners(run, k)]);
   const [cx, cy] = [(b[0] + b[1]) / 2, (b[2] + b[3]) / 2];
   const plot = Plot.square({
     width,
@@ -143,9 +144,11 @@ function pathSvg(data, run, k, span, width) {
     yLabel: "y (m)",
   });
   const [end, calculated] = [truth[truth.length - 1], odometry[odometry.length - 1]];
+  drawEllipses(plot, run, k);
   plot.path(odometry, "odometry");
   plot.path(truth, `truth ${colourClass(run.direction)}`);
   bumps.forEach((bump) => drawBump(plot, bump));
+  drawFixes(plot, run, truth);
   plot.line(calculated, end, "gap-line");
   drawRobot(plot, odometry[0]);
   drawEnd(plot, calculated, "end calculated");
@@ -180,5 +183,6 @@ function pathLegend(data, directions) {
       [lineIcon("odometry"), "odometry"], [robot, "start"], [dot(`end ${colourClass(directions[0])}`), "true end"],
       [dot("end calculated"), "calculated end"]);
   if (data.bumps.length) items.push([bump, "bump"]);
+  items.push(...ellipseLegend(data, directions[0]));
   return items;
 }

@@ -26,9 +26,15 @@ function oneWayHtml(data) {
   const one = data.summary.one_way;
   if (!one) return "";
   const warning = one.warning || CAPTIONS.oneWayWarning;
-  const html = table(`One-way square, ${escapeHtml(directionName(one.direction))}`, ["Quantity", "Value"], [
-    ["r<sub>cg</sub> (mm)", mm(one.r_cg_m)],
-    ["mean heading error (°)", deg(one.e_theta_rad)],
+  const columns = [["cw alone", one.cw], ["ccw alone", one.ccw]].filter(([, c]) => c);
+  const both = (cell) => (columns.length > 1 ? [cell] : []);
+  const row = (name, value, twoWay) => [name, ...columns.map(([, c]) => value(c)), ...both(twoWay)];
+  const eMax = (data.summary.umbmark || {}).e_max_syst_m;
+  const head = ["Quantity", ...columns.map(([name]) => name), ...both("two-way")];
+  const html = table("What each direction alone would report, against both", head, [
+    row(`r<sub>cg</sub>, two-way ${E_MAX} (mm)`, (c) => mm(c.r_cg_m), mm(eMax)),
+    row("mean heading error (°)", (c) => deg(c.e_theta_rad), "\u2013"),
+    row("rms of the return error (mm)", (c) => mm(c.rms_m), "\u2013"),
   ]);
   return `<p class="notice"><b>Read with care.</b> ${escapeHtml(warning)}</p>` + beside(html, CAPTIONS.oneWay);
 }

@@ -10,7 +10,7 @@ TEST(CommandLine, HelpOfEverySubcommand) {
   const Outcome top = desk.umbsim({"--help"});
   EXPECT_EQ(top.code, 0);
   EXPECT_EQ(top.err, "");
-  for (const std::string command : {"run", "calibrate", "effects"}) {
+  for (const std::string command : {"run", "calibrate", "effects", "explain"}) {
     expect_says(top.out, {command});
     const Outcome help = desk.umbsim({command, "--help"});
     EXPECT_EQ(help.code, 0);

@@ -56,7 +56,10 @@ void collect(const YAML::Node& node, const std::string& above, Keys& keys) {
 TEST(ScenarioDocument, NamesEveryKeyThatTheProgramWrites) {
   const Desk desk;
   const Scenario s = read(desk, "format: umbsim-scenario/1\nbumps: {count: 1}\n"
-                                "odometry: {left_radius_m: 1, right_radius_m: 1, wheelbase_m: 1}\n");
+                                "odometry: {left_radius_m: 1, right_radius_m: 1, wheelbase_m: 1}\n"
+                                "noise: {wheel_noise_m_per_sqrt_m: 0.001}\n"
+                                "uncertainty: {left_m_per_sqrt_m: 0.001, right_m_per_sqrt_m: 0.001}\n"
+                                "fixes: [{leg: 1}]\n");
   Keys keys;
   collect(YAML::Load(resolved_yaml(s)), "", keys);
   ASSERT_GT(keys.size(), 40u);
@@ -67,7 +70,8 @@ TEST(ScenarioDocument, NamesEveryKeyThatTheProgramWrites) {
 }
 
 TEST(ShippedScenarios, AreReadAndSayWhatTheyAre) {
-  for (const auto& entry : fs::directory_iterator(fs::path(UMBSIM_SOURCE_DIR) / "scenarios")) {
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(UMBSIM_SOURCE_DIR) / "scenarios")) {
+    if (entry.is_directory()) continue;
     SCOPED_TRACE(entry.path().string());
     EXPECT_FALSE(read_scenario(entry.path().string()).description.empty());
     EXPECT_EQ(text_of(entry.path()).rfind("# ", 0), 0u) << "begins with a comment";

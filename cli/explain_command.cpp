@@ -1,0 +1,54 @@
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "cli/tables.h"
+#include "core/text_file.h"
+#include "experiment/explain.h"
+#include "experiment/result_json.h"
+#include "experiment/run_folder.h"
+
+namespace umbsim {
+namespace {
+
+struct ExplainArguments {
+  std::string scenario;
+  std::string out;
+  std::vector<std::string> settings;
+  bool force = false;
+  int jobs = 0;
+};
+
+void explain_scenario(const ExplainArguments& a) {
+  const Scenario scenario = read_scenario(a.scenario, a.settings);
+  if (!a.out.empty()) prepare_output_folder(a.out, a.force);
+  const Explanation explanation = explain(scenario, a.jobs);
+  if (!a.out.empty()) {
+    write_folder(a.out, a.force, [&](const std::filesystem::path& into) {
+      write_text_file(into / "explain.json", explanation_json(scenario, explanation).dump(2) + "\n");
+      write_text_file(into / "scenario.resolved.yaml", resolved_yaml(scenario));
+      write_text_file(into / "provenance.json", provenance_json(scenario.file, scenario.seed).dump(2) + "\n");
+    });
+  }
+  fmt::print("{}", explanation_table(scenario, explanation));
+  if (!a.out.empty()) fmt::print("Result in {}: explain.json\n", a.out);
+}
+
+}  // namespace
+
+void add_explain_command(CLI::App& app) {
+  const auto a = std::make_shared<ExplainArguments>();
+  CLI::App* command =
+      app.add_subcommand("explain", "Say which effect of a scenario causes how much of its return error");
+  command->add_option("scenario", a->scenario, "Scenario file (YAML)")->required();
+  command->add_option("-o,--out", a->out, "Folder for explain.json; without it only the table is shown");
+  command->add_option("--set", a->settings, "Replace a value of the scenario: --set course.side_m=2 (repeatable)")
+      ->allow_extra_args(false);
+  command->add_flag("--force", a->force, "Replace a finished result");
+  command->add_option("-j,--jobs", a->jobs, "Runs driven at the same time; 0: one per core")
+      ->check(CLI::Range(0, 1024));
+  command->callback([a] { explain_scenario(*a); });
+}
+
+}  // namespace umbsim

@@ -1,0 +1,57 @@
+#include "experiment/pose_track.h"
+
+#include <algorithm>
+
+#include "experiment/drive_run.h"
+
+namespace umbsim {
+
+TrackKeeper::TrackKeeper(const Scenario& scenario, const RunSpec& spec, const Plan& plan)
+    : on_(scenario.uncertainty.any()),
+      X_SW_(inverse(Pose2{0, 0, scenario.runs.start_heading_rad})),
+      random_(scenario.seed, "absolute fix", std::uint64_t(spec.number)) {
+  for (const AbsoluteFix& fix : scenario.fixes) {
+    const int turn = 2 * (fix.leg - 1) + 1;
+    if (turn < int(plan.segments().size())) fixes_.push_back({turn, fix.noise});
+  }
+  std::stable_sort(fixes_.begin(), fixes_.end(), [](const Fix& a, const Fix& b) { return a.segment < b.segment; });
+}
+
+void TrackKeeper::fix_if_due(int segment, const Pose2& X_WB, UncertainReckoning& reckoning) {
+  for (; taken_ < fixes_.size() && segment >= fixes_[taken_].segment; ++taken_) {
+    const FixNoise& noise = fixes_[taken_].noise;
+    const Pose2 X_SB = X_SW_ * X_WB;
+    const double x_m = random_.normal(X_SB.x_m, noise.position_sd_m);
+    const double y_m = random_.normal(X_SB.y_m, noise.position_sd_m);
+    reckoning.fix({x_m, y_m, random_.normal(X_SB.theta_rad, noise.heading_sd_rad)}, noise);
+    track.fixes.push_back(track.samples.size());
+  }
+}
+
+void TrackKeeper::note(const Pose2& X_WB, const UncertainReckoning& reckoning) {
+  if (on_) track.samples.push_back({reckoning.estimate(), X_SW_ * X_WB});
+}
+
+UncertaintyFigures uncertainty_figures(const std::vector<const PoseTrack*>& tracks) {
+  UncertaintyFigures f;
+  double ends = 0, way = 0, poses = 0;
+  for (const PoseTrack* track : tracks) {
+    if (track->samples.empty()) continue;
+    ++f.runs;
+    const TrackSample& end = track->samples.back();
+    f.end_covariance += end.estimate.covariance;
+    ends += inside_95(end.estimate, end.X_SB);
+    for (const TrackSample& s : track->samples) {
+      if (s.estimate.covariance(0, 0) == 0 && s.estimate.covariance(2, 2) == 0) continue;  // it has not moved yet
+      ++poses;
+      way += inside_95(s.estimate, s.X_SB);
+    }
+  }
+  if (f.runs == 0) return f;
+  f.end_covariance /= f.runs;
+  f.end_inside_95_share = ends / f.runs;
+  f.way_inside_95_share = poses > 0 ? way / poses : 0;
+  return f;
+}
+
+}  // namespace umbsim

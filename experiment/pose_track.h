@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+#include "core/random.h"
+#include "experiment/scenario.h"
+#include "odometry/uncertainty.h"
+
+namespace umbsim {
+
+struct RunSpec;
+
+/// What the odometry believed of itself at one moment, and what was true. Both in the frame of the run's start.
+struct TrackSample {
+  UncertainPose estimate;
+  Pose2 X_SB;
+};
+
+/// The estimates of one run at the moments of its absolute poses; empty if the scenario has no `uncertainty`.
+struct PoseTrack {
+  std::vector<TrackSample> samples;
+  std::vector<std::size_t> fixes;  ///< the first sample after each absolute fix
+};
+
+/// Keeps the track of a run, and takes the scenario's absolute fixes: at the end of a leg, before the turn, the true
+/// pose is measured with the fix's errors.
+class TrackKeeper {
+ public:
+  TrackKeeper(const Scenario& scenario, const RunSpec& spec, const Plan& plan);
+
+  void fix_if_due(int segment, const Pose2& X_WB, UncertainReckoning& reckoning);
+  void note(const Pose2& X_WB, const UncertainReckoning& reckoning);
+
+  PoseTrack track;
+
+ private:
+  struct Fix {
+    int segment = 0;  // the turn after the leg
+    FixNoise noise;
+  };
+  bool on_;
+  Pose2 X_SW_;
+  std::vector<Fix> fixes_;
+  std::size_t taken_ = 0;
+  RandomStream random_;
+};
+
+/// How the predicted ellipses of some runs compare with the truth.
+struct UncertaintyFigures {
+  int runs = 0;
+  PoseCovariance end_covariance = PoseCovariance::Zero();  ///< mean over the runs
+  double end_inside_95_share = 0;  ///< of the runs whose true end lies in its 95 % ellipse
+  double way_inside_95_share = 0;  ///< the same of all poses on the way
+};
+UncertaintyFigures uncertainty_figures(const std::vector<const PoseTrack*>& tracks);
+
+}  // namespace umbsim
