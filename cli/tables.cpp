@@ -101,6 +101,14 @@ std::string recovery_table(const ExperimentResult& r) {
   return text;
 }
 
+std::string cables_line(const ExperimentResult& r) {
+  if (r.cables_not_crossed == 0) return "";
+  return fmt::format(
+      "  Warning: the wheel did not get over {} of the laid cables of {} mm: too little friction. Its slip, not the "
+      "cable, turned the robot.\n",
+      r.cables_not_crossed, mm(r.scenario.bumps.laid.height_m));
+}
+
 }  // namespace
 
 std::string umbmark_table(const Umbmark& u) {
@@ -126,7 +134,7 @@ std::string extended_table(const ExtendedUmbmark& e) {
 
 std::string experiment_table(const ExperimentResult& r) {
   std::string text = fmt::format("{}: {} on a {} m square\n", r.scenario.name, r.nominal.urdf, r.scenario.course.side_m);
-  if (!r.umbmark) return text + one_way_table(r) + comparison_table(r) + uncertainty_line(r);
+  if (!r.umbmark) return text + one_way_table(r) + cables_line(r) + comparison_table(r) + uncertainty_line(r);
   text += umbmark_table(*r.umbmark) + injected_line(r.injected);
   const double smaller_m = std::min(r.umbmark->cw.r_cg_m, r.umbmark->ccw.r_cg_m);
   if (smaller_m < r.umbmark->e_max_syst_m / 10) {
@@ -135,7 +143,7 @@ std::string experiment_table(const ExperimentResult& r) {
                         r.umbmark->cw.r_cg_m < r.umbmark->ccw.r_cg_m ? "cw" : "ccw", mm(smaller_m));
   }
   text += comparison_table(r);
-  if (r.extended) text += extended_table(*r.extended);
+  if (r.extended) text += extended_table(*r.extended) + cables_line(r);
   text += uncertainty_line(r);
   if (!r.passes.empty()) text += recovery_table(r);
   text += fmt::format("Cost: {:.1f} simulated s in {:.2f} s, {} steps, {} solver fallbacks\n", r.cost.simulated_s,

@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "experiment/cable_layer.h"
 #include "experiment/rolling_noise.h"
 
 namespace umbsim {
 namespace {
 
-// A cable is laid where the wheel cannot yet touch it, plus this.
-constexpr double kLayAhead_m = 0.010;
 // Standstill with braked motors before the last absolute pose is taken.
 constexpr double kRest_s = 0.5;
 
@@ -20,52 +19,6 @@ void scatter_radii(Rig& rig, double sd) {
   RandomStream random(rig.run.seed, "radius scatter", std::uint64_t(rig.run.number));
   for (Wheel& wheel : rig.robot.wheels) wheel.radius_m *= 1 + random.normal(0, sd);
 }
-
-int bumped_wheel(BumpWheel wheel, Direction direction) {
-  if (wheel == BumpWheel::left) return 0;
-  if (wheel == BumpWheel::right) return 1;
-  const int inner = direction == Direction::cw ? 1 : 0;  // right-hand turns: the right wheel is inside
-  return wheel == BumpWheel::inner ? inner : 1 - inner;
-}
-
-// Lays the scenario's cables one after another, evenly spread over their leg, just ahead of the wheel.
-class CableLayer {
- public:
-  CableLayer(const Scenario& scenario, const RunSpec& spec, const Plan& plan)
-      : bumps_(scenario.bumps.laid), wheel_(bumped_wheel(bumps_.wheel, spec.direction)) {
-    if (!spec.bumped) return;
-    const Segment& leg = plan.segments()[2 * (bumps_.leg - 1)];
-    leg_ = 2 * (bumps_.leg - 1);
-    start_ = leg.X_SB_start;
-    length_m_ = leg.length_m;
-  }
-
-  void lay_if_due(const Pose2& X_SB, int segment, World& world, const Rig& rig, RecordedRun& record) {
-    if (segment != leg_ || laid_ >= bumps_.count) return;
-    const double done_m = (inverse(start_) * X_SB).x_m;
-    if (done_m < (laid_ + 0.5) / bumps_.count * length_m_) return;
-    ++laid_;
-    const double heading_rad = world.pose().theta_rad;
-    const double radius_m = rig.robot.wheels[wheel_].radius_m;
-    const double ahead_m = std::sqrt(2 * radius_m * bumps_.height_m) + kLayAhead_m;
-    const Eigen::Vector3d wheel = world.wheel_centre(wheel_);
-    Cable cable;
-    cable.x_m = wheel.x() + ahead_m * std::cos(heading_rad);
-    cable.y_m = wheel.y() + ahead_m * std::sin(heading_rad);
-    cable.direction_rad = heading_rad + M_PI / 2;
-    cable.height_m = bumps_.height_m;
-    world.lay_cable(cable);
-    record.bumps.push_back({cable.x_m, cable.y_m, cable.height_m});
-  }
-
- private:
-  LaidBumps bumps_;
-  int wheel_;
-  int leg_ = -1;
-  int laid_ = 0;
-  Pose2 start_;
-  double length_m_ = 0;
-};
 
 // Writes down what an experimenter can: ticks, commands, and the absolute pose with its measurement error.
 class Recorder {
@@ -188,7 +141,7 @@ DrivenRun drive_run(const Scenario& scenario, const RobotModel& nominal, const O
     world.command(command.left_radps, command.right_radps);
     world.advance(period_s);
   }
-  return {std::move(recorder.run), std::move(track.track), world.cost()};
+  return {std::move(recorder.run), std::move(track.track), world.cost(), cables.not_crossed()};
 }
 
 }  // namespace umbsim

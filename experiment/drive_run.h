@@ -19,6 +19,7 @@ struct DrivenRun {
   RecordedRun run;
   PoseTrack track;
   PhysicsCost cost;
+  int cables_not_crossed = 0;  ///< of those laid
 };
 
 /// The robot as it really is in this run: the nominal one with the scenario's effects and the run's noise.

@@ -96,7 +96,11 @@ void World::State::add_spin_friction(const DofVector& u, double step_s) {
     problem.motor[problem.motors++] = {rows, limit};
     row[rows] = DofVector::Zero(body.dofs());
     row[rows].head<3>() = row[c.normal].segment<3>(3);  // the contact's normal
-    compliance[rows] = kSpinMobility / step_s;
+    const Wheel& w = robot.wheels[s.wheel];
+    const double width_m = w.patch_width_m;
+    // Rolling, the ends of the line creep: moment N w^2 / (12 C) times the curvature, below the limit.
+    const double spin = 12 * tyre_slip(s).along / (width_m * width_m);
+    compliance[rows] = (kSpinMobility + spin) / step_s;
     problem.b[rows] = row[rows].dot(u);
     ++rows;
   }

@@ -62,7 +62,9 @@ Vector3d World::State::rim_centre(const Support& s, const Joint& hinge) const {
 }
 
 RollingShape World::State::shape(const Support& s) const {
-  const double radius_m = loaded_radius(s) + s.sink_m;
+  // The height follows the load at rest only: a feedback would outrun the spring of the contact.
+  const double squash_m = s.wheel < 0 ? 0 : robot.wheels[s.wheel].compliance_mpn * rest_load_n[s.wheel];
+  const double radius_m = s.radius_m - squash_m + s.sink_m;
   if (s.joint < 0) return {body.position() + body.rotation() * s.centre_m, Vector3d::Zero(), radius_m};
   const Joint at = body.current(s.joint);
   return {body.position() + body.rotation() * rim_centre(s, at),
@@ -109,7 +111,14 @@ void World::place(const Pose2& X_WB) {
   s.radius_factor = {1, 1};
   s.time_s = -kSettle_s;
   for (int i = 0; i < 2; ++i) s.shaft_rad[i] = s.body.joint_angle(i);
+  s.rest_load_n = {};
   advance(kSettle_s);
+  if (s.robot.wheels[0].compliance_mpn > 0 || s.robot.wheels[1].compliance_mpn > 0) {
+    s.rest_load_n = s.loads.wheel_n;  // tyres that give: once more, at the height to which they sink
+    s.body.set_velocity(DofVector::Zero(s.body.dofs()));
+    s.place_on_floor(X_WB);
+    advance(kSettle_s);
+  }
   s.check_loads();
   for (int i = 0; i < 2; ++i) s.zero_angle_rad[i] = s.body.joint_angle(i);
   s.time_s = 0;

@@ -51,6 +51,7 @@ struct World::State {
   std::array<double, 2> set_point_radps{};   // behind the motors' lag
   std::array<double, 2> shaft_rad{};         // motor side of the backlash
   std::array<double, 2> radius_factor{1, 1};  // of rolling, not of the shape
+  std::array<double, 2> rest_load_n{};       // that squashes a tyre at rest
   double time_s = 0;                         // since place
   double heading_rad = 0;
 

@@ -20,8 +20,8 @@ void slip_curve() {
   fmt::print("### The slip curve, creep {} along and across, step 20 ms\n\n", kCreep);
   fmt::print("| F/N along | slip intended | measured | off | F/N across | slip intended | measured | off |\n");
   fmt::print("|---|---|---|---|---|---|---|---|\n");
-  for (const double force_n : {10, 50, 100, 150, 200, 220}) {
-    const Slip a = slip_along(kCreep, force_n), c = slip_across(kCreep, force_n);
+  for (const double force_n : {10, 50, 100, 150, 200, 224}) {
+    const Slip a = slip_along(kCreep, force_n), c = slip_across(kCreep, 1.25 * force_n);
     const double ia = kCreep * a.traction, ic = kCreep * c.traction;
     fmt::print("| {:.4f} | {:.6f} | {:.6f} | {} | {:.4f} | {:.6f} | {:.6f} | {} |\n", a.traction, ia, a.slip,
                off(a.slip, ia), c.traction, ic, c.slip, off(c.slip, ic));
@@ -37,8 +37,8 @@ void slip_curve() {
 
 void patch() {
   fmt::print("\n### Contact patch, creep 0.02, step 20 ms\n\n");
-  fmt::print("| width, mm | share of a turn on the spot: C μ w / 2b | measured | share of a gentle curve: w² / 3b² | measured |\n");
-  fmt::print("|---|---|---|---|---|\n");
+  fmt::print("| width, mm | share of a turn on the spot: C μ w / 2b | measured ");
+  fmt::print("| share of a gentle curve: w² / 3b² | measured |\n|---|---|---|---|---|\n");
   for (const double width_m : {0.01, 0.02, 0.04}) {
     const Figure turn = turn_lost(0.02, width_m), curve = curve_lost(0.02, width_m);
     fmt::print("| {:.0f} | {:.6f} | {:.6f} | {:.6f} | {:.6f} |\n", width_m * 1000, turn.intended, turn.measured,
@@ -52,9 +52,15 @@ struct Law {
   double intended;  ///< 0: not in closed form
 };
 
-// The order p from three steps, each half the one before: figures approach their limit as h^p.
+// The order p from three steps, each half the one before: figures approach their limit as h^p. Figures that do not
+// change have none.
+std::string order(double at_5ms, double at_10ms, double at_20ms) {
+  constexpr double kUnchanged = 1e-6;
+  if (std::abs(at_20ms / at_5ms - 1) < kUnchanged) return "-";
+  return fmt::format("{:.1f}", std::log2(std::abs((at_20ms - at_10ms) / (at_10ms - at_5ms))));
+}
+
 void steps() {
-  const umbsim::PhysicsOptions any;
   const Law laws[] = {
       {"creep: slip along at 100 N", [](const auto& o) { return slip_along(0.02, 100, o).slip; },
        0.02 * slip_along(0.02, 100).traction},
@@ -70,13 +76,18 @@ void steps() {
       {"carpet, with turns: m/m", [](const auto& o) { return carpet(o).measured; }, carpet().intended},
       {"swivelling caster's kick: rad", [](const auto& o) { return swivel_kick(o); }, 0},
   };
-  fmt::print("\n### Steps from 1 to 20 ms\n\n| figure | closed form | 1 ms | 2 ms | 5 ms | 10 ms | 20 ms | order |\n");
+  fmt::print("\n### Steps from 1 to 20 ms: change against 1 ms\n\n");
+  fmt::print("| figure | closed form | 1 ms | 2 ms | 5 ms | 10 ms | 20 ms | order |\n");
   fmt::print("|---|---|---|---|---|---|---|---|\n");
   for (const Law& law : laws) {
     fmt::print("| {} | {} |", law.name, law.intended ? fmt::format("{:.7f}", law.intended) : "");
     double at[5];
-    for (int i = 0; i < 5; ++i) fmt::print(" {:.7f} |", at[i] = law.figure(with_step(kSteps_s[i])));
-    fmt::print(" {:.1f} |\n", std::log2(std::abs((at[4] - at[3]) / (at[3] - at[2]))));
+    for (int i = 0; i < 5; ++i) {
+      at[i] = law.figure(with_step(kSteps_s[i]));
+      if (i == 0) fmt::print(" {:.7f} |", at[0]);
+      else fmt::print(" {:+.4f} % |", 100 * (at[i] / at[0] - 1));
+    }
+    fmt::print(" {} |\n", order(at[2], at[3], at[4]));
   }
 }
 

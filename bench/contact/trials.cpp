@@ -119,7 +119,8 @@ Figure drag_yaw(double creep, const PhysicsOptions& options) {
   const Cruise c = cruise(drive);
   const Statics load(rig.robot);
   const double drag_n = kDrag * load.caster_n, uneven_n = drag_n * kLeft_m / kWheelbase_m;
-  const double left = creep * (drag_n / 2 + uneven_n) / load.left_n, right = creep * (drag_n / 2 - uneven_n) / load.right_n;
+  const double left = creep * (drag_n / 2 + uneven_n) / load.left_n;
+  const double right = creep * (drag_n / 2 - uneven_n) / load.right_n;
   return {c.added.theta_rad / c.distance_m, (left - right) / kWheelbase_m};
 }
 

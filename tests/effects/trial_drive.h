@@ -42,6 +42,7 @@ class TrialDrive {
   explicit TrialDrive(const Rig& rig, const PhysicsOptions& options = {}, const Pose2& X_WB = {})
       : world(rig.robot, rig.drivetrain, rig.floor, options, pushes(rig)), odometry(X_WB) {
     world.place(X_WB);
+    odometry = world.pose();  // it moves by micrometres while it settles
   }
 
   /// At the speeds of a robot that moves at `v_mps` and `w_radps` without slip.

@@ -1,0 +1,64 @@
+#include "experiment/cable_layer.h"
+
+#include <cmath>
+
+namespace umbsim {
+namespace {
+
+// A cable is laid where the wheel cannot yet touch it, plus this.
+constexpr double kLayAhead_m = 0.010;
+
+int bumped_wheel(BumpWheel wheel, Direction direction) {
+  if (wheel == BumpWheel::left) return 0;
+  if (wheel == BumpWheel::right) return 1;
+  const int inner = direction == Direction::cw ? 1 : 0;  // right-hand turns: the right wheel is inside
+  return wheel == BumpWheel::inner ? inner : 1 - inner;
+}
+
+}  // namespace
+
+CableLayer::CableLayer(const Scenario& scenario, const RunSpec& spec, const Plan& plan)
+    : bumps_(scenario.bumps.laid), wheel_(bumped_wheel(bumps_.wheel, spec.direction)) {
+  if (!spec.bumped) return;
+  leg_ = 2 * (bumps_.leg - 1);
+  const Segment& leg = plan.segments()[leg_];
+  start_ = leg.X_SB_start;
+  length_m_ = leg.length_m;
+}
+
+void CableLayer::lay_if_due(const Pose2& X_SB, int segment, World& world, const Rig& rig, RecordedRun& record) {
+  watch(world, segment > leg_);
+  if (segment != leg_ || laid_ >= bumps_.count) return;
+  const double done_m = (inverse(start_) * X_SB).x_m;
+  if (done_m < (laid_ + 0.5) / bumps_.count * length_m_) return;
+  watch(world, true);
+  ++laid_;
+  last_ = ahead_of_wheel(world, rig);
+  world.lay_cable(*last_);
+  record.bumps.push_back({last_->x_m, last_->y_m, last_->height_m});
+}
+
+// Passed: the wheel's centre is beyond the cable's middle. The cable lies across, to the left of the way it was laid.
+void CableLayer::watch(const World& world, bool last_chance) {
+  if (!last_) return;
+  const Eigen::Vector3d wheel = world.wheel_centre(wheel_);
+  const double beyond_m = (wheel.x() - last_->x_m) * std::sin(last_->direction_rad) -
+                          (wheel.y() - last_->y_m) * std::cos(last_->direction_rad);
+  if (beyond_m <= 0 && !last_chance) return;
+  not_crossed_ += beyond_m <= 0;
+  last_.reset();
+}
+
+Cable CableLayer::ahead_of_wheel(const World& world, const Rig& rig) const {
+  const double heading_rad = world.pose().theta_rad;
+  const double ahead_m = std::sqrt(2 * rig.robot.wheels[wheel_].radius_m * bumps_.height_m) + kLayAhead_m;
+  const Eigen::Vector3d wheel = world.wheel_centre(wheel_);
+  Cable cable;
+  cable.x_m = wheel.x() + ahead_m * std::cos(heading_rad);
+  cable.y_m = wheel.y() + ahead_m * std::sin(heading_rad);
+  cable.direction_rad = heading_rad + M_PI / 2;
+  cable.height_m = bumps_.height_m;
+  return cable;
+}
+
+}  // namespace umbsim

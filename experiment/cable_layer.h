@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+
+#include "experiment/drive_run.h"
+#include "umbmark/course.h"
+
+namespace umbsim {
+
+/// Lays the scenario's cables one after another, evenly spread over their leg, just ahead of the wheel, and watches
+/// whether the wheel gets over each.
+class CableLayer {
+ public:
+  CableLayer(const Scenario& scenario, const RunSpec& spec, const Plan& plan);
+
+  /// Call once per control period. `X_SB`: where the robot believes to be, `segment` of the plan.
+  void lay_if_due(const Pose2& X_SB, int segment, World& world, const Rig& rig, RecordedRun& record);
+
+  /// Cables that the wheel had not passed when the next one was due, or at the end of the leg.
+  int not_crossed() const { return not_crossed_ + int(last_.has_value()); }
+
+ private:
+  void watch(const World& world, bool last_chance);
+  Cable ahead_of_wheel(const World& world, const Rig& rig) const;
+
+  LaidBumps bumps_;
+  int wheel_;
+  int leg_ = -1;
+  int laid_ = 0;
+  int not_crossed_ = 0;
+  std::optional<Cable> last_;  ///< laid and not yet passed
+  Pose2 start_;
+  double length_m_ = 0;
+};
+
+}  // namespace umbsim
