@@ -9,5 +9,6 @@ void add_run_command(CLI::App& app);
 void add_calibrate_command(CLI::App& app);
 void add_effects_command(CLI::App& app);
 void add_explain_command(CLI::App& app);
+void add_gap_command(CLI::App& app);
 
 }  // namespace umbsim

@@ -20,6 +20,7 @@ constexpr void (*kCommands[])(CLI::App&) = {
     umbsim::add_calibrate_command,
     umbsim::add_effects_command,
     umbsim::add_explain_command,
+    umbsim::add_gap_command,
 };
 
 std::vector<std::string> subcommands(const CLI::App& app) {

@@ -1,0 +1,141 @@
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include "cli/commands.h"
+#include "core/text_file.h"
+#include "experiment/replay.h"
+#include "experiment/result_json.h"
+#include "experiment/run_folder.h"
+#include "gap/check.h"
+#include "gap/diagnosis_json.h"
+
+namespace umbsim {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DiagnoseArguments {
+  std::string recording;
+  std::string scenario;
+  std::vector<std::string> excluded;
+  std::string out;
+  bool force = false;
+};
+
+std::string folder_name(const std::string& path) {
+  const fs::path p = fs::absolute(path).lexically_normal();
+  return p.has_filename() ? p.filename().string() : p.parent_path().filename().string();
+}
+
+// Stages of the work, on a terminal only.
+gap::Say stage_printer() {
+  const auto start = std::chrono::steady_clock::now();
+  const bool terminal = isatty(2);
+  return [start, terminal](const std::string& stage) {
+    if (!terminal) return;
+    const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    fmt::print(stderr, "\r\033[K{:5.1f} s  {}", s, stage);
+  };
+}
+
+gap::Simulator simulator(const Replay& replay) {
+  return {[&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.poses(run, effects); },
+          [&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.counts(run, effects); }};
+}
+
+// The scenario with the diagnosed effects added; each effect once.
+std::string twin_yaml(Scenario scenario, const gap::Diagnosis& d) {
+  if (!d.causes.empty() && d.causes.front().name != "none" && d.causes.front().name != "unknown") {
+    for (const Effect& e : d.causes.front().fit.effects()) {
+      const auto there = std::find_if(scenario.effects.begin(), scenario.effects.end(),
+                                      [&](const Effect& other) { return other.info == e.info; });
+      if (there == scenario.effects.end()) scenario.effects.push_back(e);
+      else *there = e;
+    }
+  }
+  return resolved_yaml(scenario);
+}
+
+std::string summary_text(const gap::Diagnosis& d) {
+  std::string text;
+  if (!d.detected) {
+    text += fmt::format("No gap beyond the noise (floor {:.1f} mm, scenario off by {:.1f} mm).\n", d.noise_floor_mm, d.before_mm);
+  } else {
+    text += fmt::format("Gap: the scenario is off by {:.1f} mm; run-to-run noise makes {:.1f} mm.\n", d.before_mm, d.noise_floor_mm);
+    text += fmt::format("Where: stage {}, pattern {}", d.stage, d.pattern.empty() ? "undecided" : d.pattern);
+    if (d.has_place) text += fmt::format(", at ({:.2f}, {:.2f}) m", d.place_m[0], d.place_m[1]);
+    text += "\nWhich:\n";
+    for (std::size_t i = 0; i < d.causes.size() && i < 5; ++i) {
+      const gap::Cause& c = d.causes[i];
+      text += fmt::format("  {:5.1f} %  {}", 100 * c.probability, c.name);
+      if (c.name != "unknown" && c.name != "none") {
+        for (const auto& e : gap::parameter_estimates(c.fit, d.overdispersion)) {
+          text += fmt::format("  {} {:.5g} [{:.5g}, {:.5g}] {}", e.parameter, e.value, e.ci95[0], e.ci95[1],
+                              e.unit == "1" ? "" : e.unit);
+        }
+      }
+      text += "\n";
+    }
+    text += fmt::format("Not told apart: {}\n", fmt::join(d.set, ", "));
+    if (!d.left_over.empty()) text += fmt::format("Left over: {}\n", d.left_over);
+    if (d.closure.known) {
+      text += fmt::format("How far: held-out closure {:.1f} % [{:.1f}, {:.1f}]: {:.1f} mm -> {:.1f} mm, {:.3f} deg -> {:.3f} deg\n",
+                          100 * d.closure.fraction, 100 * d.closure.ci95[0], 100 * d.closure.ci95[1], d.closure.before_mm,
+                          d.closure.after_mm, d.closure.before_deg, d.closure.after_deg);
+    }
+  }
+  for (const std::string& limit : d.limits) text += "Limit: " + limit + "\n";
+  return text;
+}
+
+void run_diagnose(const DiagnoseArguments& a) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::string out = a.out.empty() ? "results/" + folder_name(a.recording) + "-diagnosis" : a.out;
+  for (const std::string& e : a.excluded) find_effect(e);
+  const Recording recording = read_recording(a.recording);
+  const std::vector<std::string> limits = gap::check_recording(recording, a.recording);
+  const Scenario scenario = a.scenario.empty() ? scenario_of(recording, a.recording) : read_scenario(a.scenario);
+  prepare_output_folder(out, a.force);
+  const Replay replay(scenario, recording);
+  const gap::Say say = stage_printer();
+  const gap::Model model(recording, simulator(replay), gap::Scatter{});
+  gap::Diagnosis d =
+      gap::diagnose(model, std::set<std::string>(a.excluded.begin(), a.excluded.end()), gap::Thresholds{}, say);
+  d.limits = limits;
+  if (isatty(2)) fmt::print(stderr, "\r\033[K");
+  Json json = gap::diagnosis_json(d);
+  json["next_experiment"] = Json::array();
+  json["cost"] = {{"wall_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()},
+                  {"simulated_s", d.simulated_s}};
+  write_folder(out, a.force, [&](const fs::path& into) {
+    write_text_file(into / "diagnosis.json", json.dump(2) + "\n");
+    write_text_file(into / "twin.yaml", twin_yaml(scenario, d));
+    write_text_file(into / "provenance.json", provenance_json(a.recording, 0).dump(2) + "\n");
+  });
+  fmt::print("{}: {}\n{}Result in {}: diagnosis.json, twin.yaml\n", folder_name(a.recording), recording.title,
+             summary_text(d), out);
+}
+
+}  // namespace
+
+void add_gap_command(CLI::App& app) {
+  CLI::App* group = app.add_subcommand("gap", "Diagnose the gap between a scenario and a recording");
+  group->require_subcommand(1);
+  const auto a = std::make_shared<DiagnoseArguments>();
+  CLI::App* command = group->add_subcommand(
+      "diagnose", "Where the simulator and the recorded robot part, which effect explains it, how much adding it helps");
+  command->add_option("recording", a->recording, "Folder of the recording (real or simulated)")->required();
+  command->add_option("--scenario", a->scenario, "Scenario that was thought to describe it; default: the recording's robot");
+  command->add_option("--exclude", a->excluded, "Take an effect out of the catalogue (repeatable)")->allow_extra_args(false);
+  command->add_option("-o,--out", a->out, "Folder for the result; default results/<recording>-diagnosis");
+  command->add_flag("--force", a->force, "Replace a finished result");
+  command->callback([a] { run_diagnose(*a); });
+}
+
+}  // namespace umbsim

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "experiment/scenario.h"
+#include "recording/recording.h"
+#include "recording/stretches.h"
+
+namespace umbsim {
+
+/// Drives a recorded robot's runs again in the simulator, under any effects: from the recorded ticks (each wheel's shaft
+/// turns as the encoder says, seen through the encoder's faults backwards) or from the recorded commands.
+class Replay {
+ public:
+  /// `scenario` describes the robot and floor as the experimenter believes them; its course and runs are not used. The
+  /// wheel radius and wheelbase that the recording states go before the URDF's. Throws InputError.
+  Replay(const Scenario& scenario, const Recording& recording);
+
+  const Recording& recording() const { return recording_; }
+  const RobotModel& nominal() const { return nominal_; }
+  const Scenario& scenario() const { return scenario_; }
+  const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }
+
+  /// Absolute poses at the times of the run's truth, starting at its first one. Throws RunError, InputError.
+  std::vector<Pose2> poses(std::size_t run, const std::vector<Effect>& effects) const;
+
+  /// What the encoders would count, as angles in radians (left, right) and without rounding, at the times of the encoder
+  /// samples when the recorded commands are driven open loop. Lost counts are lost in the mean.
+  std::vector<std::array<double, 2>> counts(std::size_t run, const std::vector<Effect>& effects) const;
+
+ private:
+  Rig rig(std::size_t run, const std::vector<Effect>& effects) const;
+
+  Scenario scenario_;
+  const Recording& recording_;
+  RobotModel nominal_;
+  std::vector<std::vector<Stretch>> stretches_;
+  std::vector<double> lag_s_;  // of the counts behind the commands, per run
+};
+
+/// The scenario that a recording alone suggests: its robot, course, speeds and encoder rate.
+Scenario scenario_of(const Recording& recording, const std::string& directory);
+
+}  // namespace umbsim

@@ -1,0 +1,193 @@
+#include "gap/diagnose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <boost/math/distributions/chi_squared.hpp>
+
+#include "gap/closure.h"
+#include "gap/generic.h"
+#include "gap/search.h"
+#include "gap/where.h"
+
+namespace umbsim::gap {
+namespace {
+
+// Names that stand for more than themselves in this recording: effects whose signatures here are the same.
+constexpr double kOverconfidence = 2;  // evidence is divided by this before it becomes probability
+
+double tail(double chi_squared, double degrees_of_freedom) {
+  if (!(chi_squared > 0)) return 1;
+  return boost::math::cdf(
+      boost::math::complement(boost::math::chi_squared_distribution<double>(degrees_of_freedom), chi_squared));
+}
+
+// The best fit of every name, best first.
+std::vector<Cause> ranked(const std::vector<Fit>& fits, const Thresholds& t) {
+  std::map<std::string, Cause> best;
+  const double none = fits.front().log_evidence;
+  for (const Fit& fit : fits) {
+    const double score = fit.log_evidence - none - t.effect_cost * double(fit.families.size());
+    const auto [found, fresh] = best.try_emplace(fit.name(), Cause{fit.name(), fit, score, 0});
+    if (!fresh && score > found->second.score) found->second = {fit.name(), fit, score, 0};
+  }
+  std::vector<Cause> causes;
+  for (auto& [name, cause] : best) causes.push_back(std::move(cause));
+  std::stable_sort(causes.begin(), causes.end(), [](const Cause& a, const Cause& b) { return a.score > b.score; });
+  return causes;
+}
+
+void give_probabilities(std::vector<Cause>& causes) {
+  double best = -1e300;
+  for (const Cause& c : causes) best = std::max(best, c.score);
+  double sum = 0;
+  for (Cause& c : causes) sum += c.probability = std::exp((c.score - best) / kOverconfidence);
+  for (Cause& c : causes) c.probability /= sum;
+}
+
+// Every effect dropped in turn: what the rest explains as well does not need it.
+Fit pruned(const Model& model, Fit fit, double none, const Thresholds& t) {
+  for (bool dropped = true; dropped && fit.families.size() > 1;) {
+    dropped = false;
+    for (std::size_t i = 0; i < fit.families.size() && !dropped; ++i) {
+      std::vector<Family> rest = fit.families;
+      rest.erase(rest.begin() + std::ptrdiff_t(i));
+      std::vector<double> start;
+      Eigen::Index at = 0;
+      for (std::size_t j = 0; j < fit.families.size(); ++j) {
+        for (std::size_t k = 0; k < fit.families[j].parameters.size(); ++k, ++at) {
+          if (j != i) start.push_back(fit.p[at]);
+        }
+      }
+      Fit without = model.fit(rest, Eigen::Map<Eigen::VectorXd>(start.data(), Eigen::Index(start.size())));
+      if (fit.log_evidence - without.log_evidence < addition_needed(model, without, none, t)) {
+        fit = std::move(without);
+        dropped = true;
+      }
+    }
+  }
+  return fit;
+}
+
+bool contains(const Fit& larger, const Fit& smaller) {
+  return std::all_of(smaller.families.begin(), smaller.families.end(), [&](const Family& f) {
+    return std::any_of(larger.families.begin(), larger.families.end(),
+                       [&](const Family& g) { return g.effect == f.effect; });
+  });
+}
+
+Stage stage_of(const Fit& fit) { return find_effect(fit.families.front().effect).stage; }
+
+// Effects whose evidence hardly differs once both are fitted.
+std::vector<std::string> tied(const std::vector<Cause>& causes, const Thresholds& t) {
+  std::vector<std::string> names;
+  for (const Cause& c : causes) {
+    if (c.name == "none" && causes.front().name != "none") continue;
+    if (causes.front().score - c.score <= t.tie) names.push_back(c.name);
+  }
+  return names;
+}
+
+void find_place(const Model& model, const Fit& fit, Diagnosis& d) {
+  for (const Effect& e : fit.effects()) {
+    const std::string pattern = pattern_of(e.info->name);
+    if (pattern == "place") {
+      for (std::size_t i = 0; i < e.info->parameters.size(); ++i) {
+        if (e.info->parameters[i].name == "x_m") d.place_m[0] = e.values.numbers[i];
+        if (e.info->parameters[i].name == "y_m") d.place_m[1] = e.values.numbers[i];
+      }
+      d.has_place = true;
+    } else if (pattern == "one_run") {
+      for (std::size_t r = 0; r < model.recording().runs.size(); ++r) {
+        const RecordedRun& run = model.recording().runs[r];
+        if (run.id != e.values.run) continue;
+        for (const Stretch& s : model.stretches(r)) {
+          if (s.kind != Stretch::Kind::leg || s.leg != int(e.values.numbers[0])) continue;
+          for (const TruthSample& sample : run.truth) {
+            if (sample.time_s > s.start_s + e.values.numbers[1]) break;
+            d.place_m[0] = sample.X_WB.x_m;
+            d.place_m[1] = sample.X_WB.y_m;
+          }
+          d.has_place = true;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, const Thresholds& t, const Say& say) {
+  Diagnosis d;
+  say("signatures of the effects");
+  const Screen screen(model, excluded);
+  std::vector<Fit> fits = search(model, screen, t, say);
+  const Fit none = fits.front();
+  d.causes = ranked(fits, t);
+  if (d.causes.front().fit.families.size() > 1) {
+    say("pruning");
+    Fit lean = pruned(model, d.causes.front().fit, none.log_evidence, t);
+    if (lean.families.size() < d.causes.front().fit.families.size()) {
+      fits.push_back(std::move(lean));
+      // What the pruned effects brought was not worth their cost.
+      const std::string keep = fits.back().name();
+      // Combinations that add to it what is not worth its cost leave the list.
+      const Fit& leanest = fits.back();
+      std::erase_if(fits, [&](const Fit& f) { return f.families.size() > leanest.families.size() && contains(f, leanest); });
+      d.causes = ranked(fits, t);
+      const auto kept = std::find_if(d.causes.begin(), d.causes.end(), [&](const Cause& c) { return c.name == keep; });
+      std::rotate(d.causes.begin(), kept, kept + 1);
+      if (d.causes.size() > 1) d.causes.front().score = std::max(d.causes.front().score, d.causes[1].score);
+    }
+  }
+  say("what no effect explains");
+  const double generic_none = generic_gain(model, none);
+  const double gap = std::max(d.causes.front().name == "none" ? 0 : d.causes.front().score, generic_none);
+  d.detected = gap > t.detect;
+  d.p_value = tail(2 * std::max(0.0, gap), 2);
+  d.noise_floor_mm = 1000 * noise_floor_m(model);
+  if (!d.detected) {
+    const auto at = std::find_if(d.causes.begin(), d.causes.end(), [](const Cause& c) { return c.name == "none"; });
+    std::rotate(d.causes.begin(), at, at + 1);
+    d.causes.front().score = std::max(d.causes.front().score, d.causes.size() > 1 ? d.causes[1].score + t.effect_cost : 0);
+  }
+  const Fit best = d.causes.front().fit;
+  const double leftover = generic_gain(model, best);
+  const double explained = best.log_evidence - none.log_evidence;
+  d.unexplained = d.detected && leftover > t.detect;
+  d.unexplained_p = tail(2 * std::max(0.0, leftover), 2);
+  if (d.detected) {
+    const bool unknown = d.unexplained && explained < t.known_share * (explained + leftover);
+    Cause cause{"unknown", best, 0, 0};
+    cause.fit.families.clear();
+    cause.score = unknown ? d.causes.front().score + 0.5 * leftover : generic_none - 2 * t.effect_cost;
+    if (!unknown) cause.score = std::min(cause.score, d.causes.front().score - t.detect);
+    d.causes.push_back(std::move(cause));
+    std::stable_sort(d.causes.begin(), d.causes.end(), [](const Cause& a, const Cause& b) { return a.score > b.score; });
+    if (d.unexplained) d.left_over = describe_left_over(model, best);
+  }
+  give_probabilities(d.causes);
+  const double before_m2 = mean_square_error_m2(model, none.tracks);
+  d.before_mm = 1000 * std::sqrt(before_m2);
+  for (Cause& c : d.causes) {
+    if (!c.fit.families.empty()) c.squared_error_drop = 1 - mean_square_error_m2(model, c.fit.tracks) / before_m2;
+  }
+  d.overdispersion = std::max(1.0, best.residual / model.rows());
+  d.explainable_fraction = explained / std::max(1e-9, explained + std::max(0.0, leftover));
+  d.set = tied(d.causes, t);
+  d.segments = segment_scores(model, none);
+  if (d.segments.size() > 12) d.segments.resize(12);
+  if (d.detected && !best.families.empty()) {
+    // The effect that explains most names the stage.
+    d.stage = name(stage_of(best));
+    d.pattern = pattern_of(best.families.front().effect);
+    find_place(model, best, d);
+    say("held-out runs");
+    d.closure = held_out_closure(model, best);
+  }
+  d.simulated_s = model.simulated_s();
+  return d;
+}
+
+}  // namespace umbsim::gap

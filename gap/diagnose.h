@@ -1,0 +1,85 @@
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gap/kicks.h"
+#include "gap/model.h"
+
+namespace umbsim::gap {
+
+/// What the decisions rest on. Tuned on data of its own (docs/gap.md), not on what is diagnosed.
+struct Thresholds {
+  double detect = 8;        ///< log evidence that a gap needs
+  double effect_cost = 3;   ///< prior log odds against each further effect
+  double addition = 10;     ///< log evidence that a further effect needs,
+  double addition_share = 0.01;  ///< and the same as a share of what the others gained,
+  double misfit_share = 0.2;     ///< and of the excess of the residual that the others leave
+  double smallest = 0.25;   ///< displacement, in noise floors, below which an effect is no gap but a difference of engines
+  double tie = 6;           ///< log evidence within which two explanations are not told apart
+  double known_share = 0.7; ///< of the explainable evidence that named effects must explain, or the cause is unknown
+  int most_effects = 3;
+};
+
+/// One explanation of the gap. "none": no fit's families; "unknown": not an effect at all.
+struct Cause {
+  std::string name;
+  Fit fit;
+  double score = 0;        ///< log evidence with prior costs, against none
+  double probability = 0;
+  double squared_error_drop = 0;  ///< share of the recorded tracks' squared position error that it removes
+};
+
+struct SegmentScore {
+  std::string run;
+  int leg = 0;
+  std::string part;  ///< start | cruise | stop | turn
+  double score = 0;  ///< log evidence that the prediction errs there
+  double at_x_m = 0;
+  double at_y_m = 0;
+};
+
+/// Held-out closure: every condition predicted with parameters fitted on the others.
+struct Closure {
+  bool known = false;
+  double fraction = 0;       ///< 1 - (after - floor) / (before - floor), mean squares of position, unclipped
+  double ci95[2] = {0, 0};   ///< bootstrap over runs
+  double before_mm = 0;      ///< root mean square position error along the held-out runs
+  double after_mm = 0;
+  double floor_mm = 0;       ///< of the run-to-run noise
+  double before_deg = 0;     ///< root mean square heading error at the ends
+  double after_deg = 0;
+};
+
+struct Diagnosis {
+  bool detected = false;
+  double p_value = 1;
+  std::string stage = "undecided";
+  std::string pattern;
+  std::vector<SegmentScore> segments;
+  bool has_place = false;
+  double place_m[2] = {0, 0};
+  std::vector<Cause> causes;                ///< ranked
+  std::vector<std::string> set;
+  std::vector<std::vector<std::string>> indistinguishable;
+  bool unexplained = false;
+  double unexplained_p = 1;
+  std::string left_over;                    ///< description, empty if nothing is left
+  Closure closure;
+  double noise_floor_mm = 0;
+  double before_mm = 0;                     ///< root mean square position error of the scenario as it was
+  double explainable_fraction = 0;          ///< of the evidence for a gap, what the first cause takes
+  double overdispersion = 1;                ///< residual variance of the first cause's fit, over the noise model's
+  std::vector<std::string> limits;          ///< what makes the answer smaller, in words
+  double simulated_s = 0;
+};
+
+using Say = std::function<void(const std::string& stage)>;
+
+/// Diagnoses a recording. `excluded`: effects taken out of the catalogue. Throws InputError, RunError.
+Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, const Thresholds& thresholds,
+                   const Say& say);
+
+}  // namespace umbsim::gap

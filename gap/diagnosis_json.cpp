@@ -1,0 +1,111 @@
+#include "gap/diagnosis_json.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "core/random.h"
+
+namespace umbsim::gap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr int kDraws = 2000;
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
+
+bool is_angle(const EffectParameter& p) { return p.unit == "rad" && p.bounds.min <= -3 && p.bounds.max >= 3; }
+
+}  // namespace
+
+// Draws from the posterior, seen through the family's own coordinates.
+std::vector<ParameterEstimate> parameter_estimates(const Fit& fit, double overdispersion) {
+  std::vector<ParameterEstimate> estimates;
+  if (fit.families.empty()) return estimates;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(fit.covariance * overdispersion);
+  const Eigen::MatrixXd root =
+      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  RandomStream random(1, "parameter intervals");
+  std::vector<Eigen::VectorXd> draws;
+  for (int i = 0; i < kDraws; ++i) {
+    Eigen::VectorXd z(fit.p.size());
+    for (Eigen::Index j = 0; j < z.size(); ++j) z[j] = random.normal();
+    draws.push_back(fit.p + root * z);
+  }
+  Eigen::Index at = 0;
+  for (const Family& f : fit.families) {
+    const Eigen::Index n = Eigen::Index(f.parameters.size());
+    const EffectInfo& info = find_effect(f.effect);
+    const EffectValues best = f.values(fit.p.segment(at, n));
+    const EffectValues neutral = neutral_effect(info).values;
+    for (std::size_t k = 0; k < info.parameters.size(); ++k) {
+      std::vector<double> values;
+      for (const Eigen::VectorXd& draw : draws) {
+        double v = f.values(draw.segment(at, n)).numbers[k];
+        if (is_angle(info.parameters[k])) v = best.numbers[k] + std::remainder(v - best.numbers[k], 2 * M_PI);
+        values.push_back(v);
+      }
+      std::sort(values.begin(), values.end());
+      const bool fixed = values.front() == values.back();
+      if (fixed && best.numbers[k] == neutral.numbers[k]) continue;
+      estimates.push_back({f.effect, info.parameters[k].name, info.parameters[k].unit, best.numbers[k],
+                           {values[kDraws / 40], values[kDraws - 1 - kDraws / 40]}});
+    }
+    at += n;
+  }
+  return estimates;
+}
+
+Json diagnosis_json(const Diagnosis& d) {
+  Json json{{"format", "umbsim-diagnosis/1"}};
+  json["gap"] = {{"detected", d.detected},
+                 {"p_value", d.p_value},
+                 {"noise_floor_mm", number(d.noise_floor_mm)},
+                 {"before_mm", number(d.before_mm)}};
+  Json segments = Json::array();
+  for (const SegmentScore& s : d.segments) {
+    segments.push_back({{"run", s.run}, {"leg", s.leg}, {"part", s.part}, {"score", number(s.score)},
+                        {"at_m", {s.at_x_m, s.at_y_m}}});
+  }
+  json["where"] = {{"stage", d.stage}, {"pattern", d.pattern}, {"segments", segments}};
+  if (d.has_place) json["where"]["place_m"] = {d.place_m[0], d.place_m[1]};
+  Json causes = Json::array();
+  for (const Cause& c : d.causes) {
+    Json effects = Json::object();
+    if (c.name == "none" || c.name == "unknown") {
+      effects[c.name] = Json::object();
+    } else {
+      for (const Family& f : c.fit.families) effects[f.effect] = Json::object();
+      for (const ParameterEstimate& e : parameter_estimates(c.fit, d.overdispersion)) {
+        effects[e.effect][e.parameter] = {{"value", e.value}, {"ci95", {e.ci95[0], e.ci95[1]}}, {"unit", e.unit}};
+      }
+      for (const Effect& e : c.fit.effects()) {
+        if (e.info->one_run && effects.contains(e.info->name)) effects[e.info->name]["run"] = e.values.run;
+      }
+    }
+    causes.push_back({{"effects", effects},
+                      {"probability", c.probability},
+                      {"held_out_log_density", number(c.fit.held_out)},
+                      {"squared_error_drop", number(c.squared_error_drop)}});
+    if (causes.size() == 12) break;
+  }
+  json["causes"] = causes;
+  json["set"] = d.set;
+  json["indistinguishable"] = d.indistinguishable;
+  json["unexplained"] = {{"detected", d.unexplained}, {"p_value", d.unexplained_p}, {"description", d.left_over}};
+  if (d.closure.known) {
+    const Closure& c = d.closure;
+    json["closure"] = {{"held_out_fraction", number(c.fraction)}, {"ci95", {number(c.ci95[0]), number(c.ci95[1])}},
+                       {"before_mm", c.before_mm}, {"after_mm", c.after_mm}, {"noise_floor_mm", c.floor_mm},
+                       {"before_deg", c.before_deg}, {"after_deg", c.after_deg},
+                       {"explainable_fraction", number(d.explainable_fraction)}};
+  } else {
+    json["closure"] = {{"held_out_fraction", nullptr}, {"note", d.detected ? "nothing to hold out" : "no gap to close"}};
+  }
+  json["limits"] = d.limits;
+  return json;
+}
+
+}  // namespace umbsim::gap

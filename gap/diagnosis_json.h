@@ -1,0 +1,22 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "gap/diagnose.h"
+
+namespace umbsim::gap {
+
+/// diagnosis.json (format umbsim-diagnosis/1). `cost` and `next_experiment` are added by the caller.
+nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis);
+
+/// Value and 95 % interval of every fitted number of a cause, in the catalogue's parameters.
+struct ParameterEstimate {
+  std::string effect;
+  std::string parameter;
+  std::string unit;
+  double value = 0;
+  double ci95[2] = {0, 0};
+};
+std::vector<ParameterEstimate> parameter_estimates(const Fit& fit, double overdispersion);
+
+}  // namespace umbsim::gap

@@ -1,0 +1,182 @@
+#include "gap/family.h"
+
+#include <cmath>
+
+namespace umbsim::gap {
+namespace {
+
+std::size_t index_of(const EffectInfo& info, const std::string& parameter) {
+  for (std::size_t i = 0; i < info.parameters.size(); ++i) {
+    if (info.parameters[i].name == parameter) return i;
+  }
+  return 0;
+}
+
+// A family whose free numbers are parameters of the effect as they are.
+Family direct(const std::string& effect, const std::string& variant, std::vector<FreeParameter> parameters,
+              std::vector<std::pair<std::string, double>> fixed = {}) {
+  Family family{effect, variant, parameters, {}, {}, true, 0};
+  const EffectInfo& info = find_effect(effect);
+  EffectValues base = neutral_effect(info).values;
+  for (const auto& [name, value] : fixed) base.numbers[index_of(info, name)] = value;
+  std::vector<std::size_t> where;
+  for (FreeParameter& p : family.parameters) {
+    where.push_back(index_of(info, p.name));
+    const Bounds& bounds = info.parameters[where.back()].bounds;
+    p.min = std::max(p.min, bounds.min);
+    p.max = std::min(p.max, bounds.max);
+  }
+  family.values = [base, where](const Eigen::VectorXd& p) {
+    EffectValues values = base;
+    for (std::size_t i = 0; i < where.size(); ++i) values.numbers[where[i]] = p[Eigen::Index(i)];
+    return values;
+  };
+  return family;
+}
+
+// A size and a direction, fitted as two components.
+Family vector_family(const std::string& effect, const std::string& size, const std::string& angle, double step,
+                     double prior_sd, double limit) {
+  const EffectInfo& info = find_effect(effect);
+  const EffectValues base = neutral_effect(info).values;
+  const std::size_t i = index_of(info, size);
+  const std::size_t j = index_of(info, angle);
+  Family family{effect, size,
+                {{size + " cos", 0, step, prior_sd, -limit, limit}, {size + " sin", 0, step, prior_sd, -limit, limit}},
+                {}, {}, true, 0};
+  family.values = [base, i, j](const Eigen::VectorXd& p) {
+    EffectValues values = base;
+    values.numbers[i] = std::hypot(p[0], p[1]);
+    values.numbers[j] = values.numbers[i] > 0 ? std::atan2(p[1], p[0]) : 0;
+    return values;
+  };
+  return family;
+}
+
+constexpr double kFree = 1e9;
+
+FreeParameter signed_one(const char* name, double step, double prior_sd) {
+  return {name, 0, step, prior_sd, -kFree, kFree};
+}
+
+FreeParameter positive(const char* name, double step, double prior_sd) { return {name, 0, step, prior_sd, 0, kFree}; }
+
+// Logarithms of how many places on the path, and moments of the runs, were tried.
+constexpr double kPlaces = 7;
+constexpr double kMoments = 9;
+
+Family searched(Family family, double cost) {
+  family.search_cost = cost;
+  return family;
+}
+
+Family from_start(Family family, double start) {
+  family.parameters.front().start = start;
+  family.from_zero = false;
+  return family;
+}
+
+}  // namespace
+
+Effect effect_of(const Family& family, const Eigen::VectorXd& p) {
+  return {&find_effect(family.effect), family.values(p)};
+}
+
+std::vector<Effect> effects_of(const Family& family, const Eigen::VectorXd& p) {
+  std::vector<Effect> effects{effect_of(family, p)};
+  if (family.with) {
+    for (Effect& e : family.with(p)) effects.push_back(std::move(e));
+  }
+  return effects;
+}
+
+namespace {
+
+// Toed wheels scrub, and how that slows and turns the robot depends on how softly the tyres grip.
+Family on_soft_tyres(Family family) {
+  family.variant += ", soft tyres";
+  const Eigen::Index own = Eigen::Index(family.parameters.size());
+  family.parameters.push_back({"tyre_creep.along", 0.02, 5e-3, 0.1, 0, 0.5});
+  family.parameters.push_back({"tyre_creep.across", 0.02, 5e-3, 0.1, 0, 0.5});
+  family.from_zero = false;
+  family.parameters.front().start = family.parameters.front().step * 2;
+  family.with = [own](const Eigen::VectorXd& p) {
+    Effect creep = neutral_effect(find_effect("tyre_creep"));
+    creep.values.numbers = {p[own], p[own + 1]};
+    return std::vector<Effect>{creep};
+  };
+  return family;
+}
+
+}  // namespace
+
+std::vector<Family> plain_families() {
+  std::vector<Family> all = {
+      direct("wheel_radius_scale", "both", {signed_one("relative", 1e-3, 0.01)}),
+      direct("wheel_radius_difference", "right over left", {signed_one("relative", 1e-3, 0.004)}),
+      direct("wheelbase", "relative", {signed_one("relative", 1e-3, 0.015)}),
+      direct("wheel_misalignment", "right", {signed_one("right_toe_rad", 2e-3, 0.008)}),
+      direct("wheel_misalignment", "left", {signed_one("left_toe_rad", 2e-3, 0.008)}),
+      on_soft_tyres(direct("wheel_misalignment", "right", {signed_one("right_toe_rad", 2e-3, 0.008)})),
+      on_soft_tyres(direct("wheel_misalignment", "left", {signed_one("left_toe_rad", 2e-3, 0.008)})),
+      vector_family("wheel_eccentricity", "right_m", "right_phase_rad", 5e-4, 1e-3, 0.02),
+      vector_family("wheel_eccentricity", "left_m", "left_phase_rad", 5e-4, 1e-3, 0.02),
+      direct("wear", "right", {signed_one("right_relative_per_run", 2e-4, 1e-3)}),
+      direct("wear", "left", {signed_one("left_relative_per_run", 2e-4, 1e-3)}),
+      direct("backlash", "both", {positive("left_rad", 0.01, 0.03), positive("right_rad", 0.01, 0.03)}),
+      direct("motor_response", "lag", {positive("lag_s", 0.05, 0.1)}),
+      direct("motor_response", "gain", {signed_one("gain_asymmetry", 0.01, 0.05)}),
+      direct("motor_response", "deadband", {positive("deadband_radps", 0.02, 0.05)}),
+      direct("encoder_missed_counts", "right", {positive("right_probability", 1e-3, 0.005)}),
+      direct("encoder_missed_counts", "left", {positive("left_probability", 1e-3, 0.005)}),
+      direct("encoder_missed_counts", "speed", {positive("probability_per_radps", 3e-4, 1e-3)}),
+      direct("encoder_latency", "delay", {positive("seconds", 0.02, 0.1)}),
+      direct("tyre_compliance", "both", {positive("metres_per_newton", 5e-7, 3e-6)}),
+      direct("contact_patch", "width", {positive("width_m", 0.01, 0.03)}),
+      direct("tyre_creep", "along and across", {{"along", 0, 5e-3, 0.02, 0, 0.1}, {"across", 0, 5e-3, 0.02, 0, 0.1}}),
+      from_start(direct("caster_swivel", "friction", {positive("friction_nm", 0.1, 0.5)}, {{"trail_m", 0.03}}), 0.3),
+      from_start(direct("caster_swivel", "askew",
+                        {{"initial_angle_rad", 0, 0.3, 2, -3.14, 3.14}}, {{"trail_m", 0.03}, {"friction_nm", 0.1}}), 1.5),
+      direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.04)}),
+      from_start(direct("slippery_floor", "friction", {{"friction", 0, 0.005, 0.2, 0.01, 0.8}}), 0.06),
+      vector_family("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5),
+      vector_family("carpet_drift", "metres_per_metre", "direction_rad", 1e-3, 0.008, 0.5),
+  };
+  return all;
+}
+
+Family bump_family(double x_m, double y_m, double direction_rad) {
+  return searched(from_start(direct("bump", "height", {{"height_m", 0, 5e-4, 0.008, 5e-4, 0.02}},
+                           {{"x_m", x_m}, {"y_m", y_m}, {"direction_rad", direction_rad}}),
+                    0.005), kPlaces);
+}
+
+Family lift_family(double x_m, double y_m) {
+  return searched(from_start(direct("wheel_lift", "length", {{"length_m", 0, 0.005, 0.05, 0.002, 0.3}},
+                           {{"x_m", x_m}, {"y_m", y_m}}),
+                    0.03), kPlaces);
+}
+
+Family patch_family(double x_m, double y_m, double radius_m) {
+  return searched(from_start(direct("slippery_patch", "friction", {{"friction", 0, 0.005, 0.2, 0.005, 0.8}},
+                           {{"x_m", x_m}, {"y_m", y_m}, {"radius_m", radius_m}}),
+                    0.03), kPlaces);
+}
+
+Family push_family(const std::string& run, int leg, double seconds_into_leg) {
+  Family family = direct("push", run,
+                         {{"impulse_newton_seconds", 0, 1, 40, -1000, 1000}},
+                         {{"leg", double(leg)}, {"seconds_into_leg", seconds_into_leg}});
+  family.from_zero = false;
+  family.search_cost = kMoments;
+  family.parameters.front().start = 30;
+  const auto inner = family.values;
+  family.values = [inner, run](const Eigen::VectorXd& p) {
+    EffectValues values = inner(p);
+    values.run = run;
+    return values;
+  };
+  return family;
+}
+
+}  // namespace umbsim::gap

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "effects/catalogue.h"
+
+namespace umbsim::gap {
+
+/// One free number of an effect, in coordinates in which it acts nearly linearly (an eccentricity's two components
+/// instead of its size and phase).
+struct FreeParameter {
+  std::string name;
+  double start = 0;     ///< where the fit begins
+  double step = 0;      ///< of the finite difference
+  double prior_sd = 0;  ///< about zero
+  double min = 0;
+  double max = 0;
+};
+
+/// An effect of the catalogue with the numbers that are fitted, the others fixed.
+struct Family {
+  std::string effect;
+  std::string variant;  ///< which numbers are free, where an effect has several families
+  std::vector<FreeParameter> parameters;
+  std::function<EffectValues(const Eigen::VectorXd& p)> values;
+  /// Further effects that go with it and are not credited: how softly the tyres grip while they scrub.
+  std::function<std::vector<Effect>(const Eigen::VectorXd& p)> with;
+  bool from_zero = true;  ///< acts in proportion near zero; false: fitted from its start, by repeated simulation
+  double search_cost = 0; ///< log of the number of places or moments that were looked at
+};
+
+/// The effect with everything that goes with it.
+std::vector<Effect> effects_of(const Family& family, const Eigen::VectorXd& p);
+
+Effect effect_of(const Family& family, const Eigen::VectorXd& p);
+
+/// Every family of the catalogue that needs no search for a place or moment.
+std::vector<Family> plain_families();
+
+/// Families of local effects, at a place of the floor or a moment of one run.
+Family bump_family(double x_m, double y_m, double direction_rad);
+Family lift_family(double x_m, double y_m);
+Family patch_family(double x_m, double y_m, double radius_m);
+Family push_family(const std::string& run, int leg, double seconds_into_leg);
+
+}  // namespace umbsim::gap

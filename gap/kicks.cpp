@@ -1,0 +1,125 @@
+#include "gap/kicks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include <Eigen/Cholesky>
+#include <tbb/parallel_for.h>
+
+namespace umbsim::gap {
+namespace {
+
+constexpr std::size_t kStride = 2;                   // truth samples between two candidates
+const Eigen::Vector3d kKickSd(0.02, 0.02, 0.05);     // prior size: metres, metres, radians
+constexpr double kLostSd_m = 0.003;
+constexpr double kSpot_m = 0.03;  
+constexpr double kReach_m = 0.05;                    // half length of what lies across the path
+
+// Wheel positions at each candidate of a run.
+Pose2 wheel_place(const Pose2& X_WB, int wheel, double wheelbase_m) {
+  return X_WB * Pose2{0, (wheel == 0 ? 0.5 : -0.5) * wheelbase_m, 0};
+}
+
+}  // namespace
+
+Kicks find_kicks(const Model& model, const Fit& fit) {
+  const Recording& recording = model.recording();
+  const std::size_t runs = recording.runs.size();
+  const std::vector<Eigen::VectorXd> left = model.left_over(fit);
+  std::vector<TrackFilter::KickProducts> all(runs);
+  tbb::parallel_for(std::size_t(0), runs, [&](std::size_t r) { all[r] = model.filter(r).kick_products(left[r]); });
+
+  Kicks kicks;
+  for (std::size_t r = 0; r < runs; ++r) {
+    Kick best;
+    for (std::size_t k = 1; k < model.filter(r).samples(); ++k) {
+      Eigen::Matrix3d M = kKickSd.asDiagonal() * all[r].with_itself[k] * kKickSd.asDiagonal();
+      M.diagonal().array() += 1;
+      const Eigen::LLT<Eigen::Matrix3d> llt(M);
+      const Eigen::Vector3d b = kKickSd.cwiseProduct(all[r].with_column[k]);
+      const Eigen::Vector3d x = llt.solve(b);
+      double gain = 0.5 * b.dot(x);
+      for (int c = 0; c < 3; ++c) gain -= std::log(llt.matrixLLT()(c, c));
+      if (k == 1 || gain > best.gain) best = {r, k, kKickSd.cwiseProduct(x), gain};
+    }
+    kicks.moments.push_back(best);
+  }
+  std::sort(kicks.moments.begin(), kicks.moments.end(), [](const Kick& a, const Kick& b) { return a.gain > b.gain; });
+
+  // Where the wheels were, once and for all.
+  std::vector<std::array<std::vector<Pose2>, 2>> wheels(runs);
+  for (std::size_t r = 0; r < runs; ++r) {
+    for (int w = 0; w < 2; ++w) {
+      for (const TruthSample& t : recording.runs[r].truth) {
+        wheels[r][std::size_t(w)].push_back(wheel_place(t.X_WB, w, recording.robot.wheelbase_m));
+      }
+    }
+  }
+  // Candidates for places: wheel tracks of the first run of every condition and direction, each spot once.
+  const double b_m = recording.robot.wheelbase_m;
+  std::vector<PlaceKick> places;
+  std::vector<std::string> seen;
+  std::set<std::pair<long, long>> spots;
+  for (std::size_t r = 0; r < runs; ++r) {
+    const std::string key = model.conditions()[r] + recording.runs[r].direction;
+    if (std::find(seen.begin(), seen.end(), key) != seen.end()) continue;
+    seen.push_back(key);
+    for (std::size_t k = 1; k < model.filter(r).samples(); k += kStride) {
+      for (int w = 0; w < 2; ++w) {
+        const Pose2& at = wheels[r][std::size_t(w)][k];
+        if (!spots.insert({std::lround(at.x_m / kSpot_m), std::lround(at.y_m / kSpot_m)}).second) continue;
+        places.push_back({at.x_m, at.y_m, at.theta_rad, w, 0, 0, 0});
+      }
+    }
+  }
+  tbb::parallel_for(std::size_t(0), places.size(), [&](std::size_t c) {
+    PlaceKick& place = places[c];
+    double zy = 0;
+    double zz = 0;
+    for (std::size_t r = 0; r < runs; ++r) {
+      for (int w = 0; w < 2; ++w) {
+        // Nearest approach of each pass, once each.
+        constexpr double kReach2 = kReach_m * kReach_m;
+        double nearest = kReach2;
+        std::size_t at = 0;
+        const auto take = [&] {
+          if (nearest >= kReach2) return;
+          const Eigen::Vector3d lost(-0.5, 0, (w == 0 ? 1 : -1) / b_m);
+          zy += lost.dot(all[r].with_column[at]);
+          zz += lost.dot(all[r].with_itself[at] * lost);
+          ++place.passes;
+          nearest = kReach2;
+        };
+        for (std::size_t k = 1; k < model.filter(r).samples(); ++k) {
+          const Pose2& p = wheels[r][std::size_t(w)][k];
+          const double dx = p.x_m - place.x_m;
+          const double dy = p.y_m - place.y_m;
+          const double d = dx * dx + dy * dy;
+          if (d < nearest) {
+            nearest = d;
+            at = k;
+          } else if (d > kReach2) {
+            take();
+          }
+        }
+        take();
+      }
+    }
+    const double M = 1 + kLostSd_m * kLostSd_m * zz;
+    place.lost_m = kLostSd_m * kLostSd_m * zy / M;
+    place.gain = 0.5 * kLostSd_m * kLostSd_m * zy * zy / M - 0.5 * std::log(M);
+  });
+  std::sort(places.begin(), places.end(), [](const PlaceKick& a, const PlaceKick& b) { return a.gain > b.gain; });
+  for (const PlaceKick& p : places) {
+    const bool near = std::any_of(kicks.places.begin(), kicks.places.end(), [&](const PlaceKick& q) {
+      return std::hypot(p.x_m - q.x_m, p.y_m - q.y_m) < 0.3;
+    });
+    if (!near) kicks.places.push_back(p);
+    if (kicks.places.size() == 5) break;
+  }
+  return kicks;
+}
+
+}  // namespace umbsim::gap

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gap/diagnose.h"
+
+namespace umbsim::gap {
+
+/// Families of effects with their whitened derivatives from the nominal robot, so that any of them can be tried on top of
+/// any fit by linear algebra.
+class Screen {
+ public:
+  Screen(const Model& model, const std::set<std::string>& excluded);
+
+  struct Candidate {
+    Family family;
+    Eigen::VectorXd start;
+    double gain = 0;  ///< log evidence expected on top of the fit
+  };
+  /// Families that could explain what `fit` leaves, best first; local ones (places, moments) are searched for anew.
+  std::vector<Candidate> on_top_of(const Fit& fit) const;
+
+  const std::vector<Family>& families() const { return families_; }
+
+ private:
+  const Model& model_;
+  std::set<std::string> excluded_;
+  std::vector<Family> families_;
+  std::vector<std::pair<int, int>> range_;     // of each family's columns
+  std::vector<Eigen::MatrixXd> columns_;       // per run
+  Eigen::VectorXd prior_sd_;
+};
+
+/// Log evidence that a further effect must bring on top of `base`. `none`: log evidence of no effect.
+double addition_needed(const Model& model, const Fit& base, double none, const Thresholds& thresholds);
+
+/// Fits of no effect, of single effects, and of the combinations that pay, all in the simulator.
+std::vector<Fit> search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say);
+
+}  // namespace umbsim::gap

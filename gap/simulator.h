@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/pose2.h"
+#include "effects/catalogue.h"
+
+namespace umbsim::gap {
+
+/// Absolute poses of one recorded run at its truth's times, driven again from its ticks under `effects`.
+using ReplayTicks = std::function<std::vector<Pose2>(std::size_t run, const std::vector<Effect>& effects)>;
+
+/// Shaft angles (left, right), radians, at the encoder samples of one run driven from its commands under `effects`.
+using ReplayCommands =
+    std::function<std::vector<std::array<double, 2>>(std::size_t run, const std::vector<Effect>& effects)>;
+
+/// How the simulator reaches the diagnosis. Both must be safe to call from several threads.
+struct Simulator {
+  ReplayTicks ticks;
+  ReplayCommands commands;
+};
+
+}  // namespace umbsim::gap

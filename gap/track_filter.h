@@ -1,0 +1,61 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "recording/recording.h"
+
+namespace umbsim::gap {
+
+/// What makes two runs of the same robot differ, and what the tracker adds.
+struct NoiseModel {
+  double heading_rad2_pm = 3.6e-7;  ///< variance of heading per metre that a wheel rolls, rad^2/m
+  double along_m2_pm = 1e-8;        ///< of the distance, m^2/m
+  double across_m2_pm = 1e-9;       ///< sideways, m^2/m
+  double position_sd_m = 3e-4;      ///< of one absolute position, with the encoder's rounding
+  double heading_sd_rad = 3e-4;
+  double turn_rad2 = 0;             ///< further variance of heading per radian turned, rad^2/rad
+};
+
+/// Errors of a track against a prediction, (along, across, heading) in the predicted robot's frame: 3 rows a sample.
+using TrackColumns = Eigen::MatrixXd;
+
+/// Log of the pose error: rows 3k..3k+2 are X_predicted^-1 X_true of sample k.
+Eigen::VectorXd track_error(const std::vector<Pose2>& predicted, const std::vector<Pose2>& actual);
+
+/// A Kalman filter along one run. Errors of the pose grow by the noise model and are seen through the tracker's noise;
+/// the innovations, each over its own standard deviation, are white if the model is right. The filter is linear: any
+/// column of track errors (a residual, or what an effect would do) is whitened alike.
+class TrackFilter {
+ public:
+  /// `path`: predicted poses; `rolled_m`: mean distance that the wheels rolled before each sample (same length, first 0).
+  TrackFilter(const std::vector<Pose2>& path, const std::vector<double>& rolled_m, const NoiseModel& noise);
+
+  TrackColumns whiten(const TrackColumns& columns) const;
+  /// Sum over samples of log det of the innovations' covariance.
+  double log_det() const { return log_det_; }
+  std::size_t samples() const { return steps_.size(); }
+
+  /// For a unit kick (along, across, heading) taken just before each sample: its whitened track times `white` (a column
+  /// from whiten), and times itself. One pass backwards for all samples.
+  struct KickProducts {
+    std::vector<Eigen::Vector3d> with_column;
+    std::vector<Eigen::Matrix3d> with_itself;
+  };
+  KickProducts kick_products(const Eigen::VectorXd& white) const;
+
+  /// What kicks (along, across, heading; per sample, in the robot's frame, taken before that sample) do to the track.
+  Eigen::VectorXd propagate(const std::vector<Eigen::Vector3d>& kicks) const;
+
+ private:
+  struct Step {
+    Eigen::Matrix3d transition;  ///< of the error, from the sample before
+    Eigen::Matrix3d gain;
+    Eigen::Matrix3d whitener;    ///< inverse Cholesky factor of the innovation's covariance
+  };
+  std::vector<Step> steps_;
+  double log_det_ = 0;
+};
+
+}  // namespace umbsim::gap

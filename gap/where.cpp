@@ -1,0 +1,132 @@
+#include "gap/where.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+namespace umbsim::gap {
+namespace {
+
+constexpr double kEnds_m = 0.3;  // of a leg that count as its start and its stop
+const Eigen::Vector3d kRateSd(2e-3, 2e-3, 2e-3);
+
+struct Part {
+  std::size_t run;
+  int leg;
+  std::string name;
+  std::vector<Eigen::Vector3d> rates;  // per sample; zero outside the part
+  std::size_t middle = 0;
+};
+
+std::vector<Part> parts_of(const Model& model, std::size_t r) {
+  std::vector<Part> parts;
+  const auto& truth = model.recording().runs[r].truth;
+  const auto& path = model.nominal_tracks()[r];
+  const std::size_t n = model.filter(r).samples();
+  for (const Stretch& s : model.stretches(r)) {
+    if (s.kind == Stretch::Kind::still) continue;
+    std::map<std::string, Part> named;
+    double way = 0;
+    for (std::size_t i = 1; i < n; ++i) {
+      if (truth[i].time_s <= s.start_s || truth[i].time_s > s.end_s) continue;
+      const double rolled = model.rolled(r)[i];
+      way += rolled;
+      std::string name = "turn";
+      if (s.kind == Stretch::Kind::leg) {
+        name = way < kEnds_m ? "start" : way > std::abs(s.length_m) - kEnds_m ? "stop" : "cruise";
+      }
+      Part& part = named[name];
+      if (part.rates.empty()) {
+        part = {r, s.leg, name, std::vector<Eigen::Vector3d>(n, Eigen::Vector3d::Zero()), i};
+      }
+      const double share = name == "turn" ? std::abs((inverse(path[i - 1]) * path[i]).theta_rad) * 0.2 : rolled;
+      part.rates[i] = Eigen::Vector3d(share, share, rolled);
+      if (part.rates[part.middle].norm() == 0) part.middle = i;
+    }
+    for (auto& [name, part] : named) parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<SegmentScore> segment_scores(const Model& model, const Fit& fit) {
+  const std::vector<Eigen::VectorXd> left = model.left_over(fit);
+  std::vector<std::vector<SegmentScore>> per_run(left.size());
+  tbb::parallel_for(std::size_t(0), left.size(), [&](std::size_t r) {
+    const TrackFilter& filter = model.filter(r);
+    for (const Part& part : parts_of(model, r)) {
+      Eigen::MatrixXd raw(3 * Eigen::Index(filter.samples()), 3);
+      for (int c = 0; c < 3; ++c) {
+        std::vector<Eigen::Vector3d> kicks(filter.samples(), Eigen::Vector3d::Zero());
+        for (std::size_t i = 0; i < kicks.size(); ++i) kicks[i][c] = part.rates[i][c];
+        raw.col(c) = filter.propagate(kicks);
+      }
+      const Eigen::MatrixXd white = filter.whiten(raw);
+      Eigen::Matrix3d M = kRateSd.asDiagonal() * (white.transpose() * white) * kRateSd.asDiagonal();
+      M.diagonal().array() += 1;
+      const Eigen::LLT<Eigen::Matrix3d> llt(M);
+      const Eigen::Vector3d b = kRateSd.cwiseProduct(white.transpose() * left[r].head(white.rows()));
+      double gain = 0.5 * b.dot(llt.solve(b));
+      for (int c = 0; c < 3; ++c) gain -= std::log(llt.matrixLLT()(c, c));
+      const Pose2& at = model.recording().runs[r].truth[part.middle].X_WB;
+      per_run[r].push_back({model.recording().runs[r].id, part.leg, part.name, gain, at.x_m, at.y_m});
+    }
+  });
+  std::vector<SegmentScore> all;
+  for (auto& scores : per_run) all.insert(all.end(), scores.begin(), scores.end());
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
+  return all;
+}
+
+std::string pattern_of(const std::string& effect) {
+  static const std::map<std::string, std::string> patterns = {
+      {"wheel_radius_scale", "legs"},        {"wheel_radius_difference", "legs"},
+      {"wheelbase", "turns"},                {"wheel_misalignment", "legs"},
+      {"wheel_eccentricity", "wheel_angle"}, {"load_shift", "load"},
+      {"wear", "runs"},                      {"backlash", "reversals"},
+      {"motor_response", "commands"},        {"over_acceleration", "leg_start"},
+      {"fast_turning", "turns"},             {"encoder_resolution", "legs"},
+      {"encoder_sampling", "turns"},         {"encoder_missed_counts", "legs"},
+      {"encoder_latency", "speed"},          {"tyre_compliance", "load"},
+      {"contact_patch", "turns"},            {"tyre_creep", "leg_start"},
+      {"caster_swivel", "leg_start"},        {"caster_drag", "legs"},
+      {"slippery_floor", "turns"},           {"slippery_patch", "place"},
+      {"bump", "place"},                     {"uneven_floor", "place"},
+      {"floor_slope", "world_direction"},    {"carpet_drift", "world_direction"},
+      {"push", "one_run"},                   {"wheel_lift", "place"}};
+  const auto found = patterns.find(effect);
+  return found == patterns.end() ? "" : found->second;
+}
+
+std::string describe_left_over(const Model& model, const Fit& fit) {
+  const std::vector<SegmentScore> scores = segment_scores(model, fit);
+  std::map<std::string, double> by_part;
+  std::map<std::string, double> by_run;
+  double total = 0;
+  for (const SegmentScore& s : scores) {
+    if (s.score <= 0) continue;
+    by_part[s.part] += s.score;
+    by_run[s.run] += s.score;
+    total += s.score;
+  }
+  if (total < 5 || scores.empty()) return "";
+  const auto most = [](const std::map<std::string, double>& shares) {
+    return *std::max_element(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  };
+  const auto [part, part_score] = most(by_part);
+  const auto [run, run_score] = most(by_run);
+  std::string text = fmt::format("{:.0f} % of what is left sits in the {}s", 100 * part_score / total, part);
+  if (part == "cruise") text = fmt::format("{:.0f} % of what is left sits along the legs", 100 * part_score / total);
+  if (part == "start" || part == "stop") text = fmt::format("{:.0f} % of what is left sits at the legs' {}s", 100 * part_score / total, part);
+  if (run_score > 0.5 * total) text += fmt::format(", {:.0f} % in run {} alone", 100 * run_score / total, run);
+  const SegmentScore& worst = scores.front();
+  return text + fmt::format("; most in run {}, leg {} ({}), near ({:.2f}, {:.2f}) m", worst.run, worst.leg, worst.part,
+                            worst.at_x_m, worst.at_y_m);
+}
+
+}  // namespace umbsim::gap

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gap/diagnose.h"
+
+namespace umbsim::gap {
+
+/// How much evidence each leg's start, cruise and stop and each turn of every run gives against the prediction of a fit,
+/// most first.
+std::vector<SegmentScore> segment_scores(const Model& model, const Fit& fit);
+
+/// The pattern of an effect of the catalogue in the data: turns, legs, leg_start, place, wheel_angle, world_direction,
+/// one_run, runs, load, reversals, commands.
+std::string pattern_of(const std::string& effect);
+
+/// In words: where the evidence against a fit sits, and whether it goes with the turns, legs, direction or one run.
+std::string describe_left_over(const Model& model, const Fit& fit);
+
+}  // namespace umbsim::gap
