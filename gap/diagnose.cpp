@@ -46,35 +46,36 @@ void give_probabilities(std::vector<Cause>& causes) {
   for (Cause& c : causes) c.probability /= sum;
 }
 
-// Every effect dropped in turn: what the rest explains as well does not need it.
-Fit pruned(const Model& model, Fit fit, double none, const Thresholds& t) {
-  for (bool dropped = true; dropped && fit.families.size() > 1;) {
-    dropped = false;
-    for (std::size_t i = 0; i < fit.families.size() && !dropped; ++i) {
-      std::vector<Family> rest = fit.families;
-      rest.erase(rest.begin() + std::ptrdiff_t(i));
-      std::vector<double> start;
-      Eigen::Index at = 0;
-      for (std::size_t j = 0; j < fit.families.size(); ++j) {
-        for (std::size_t k = 0; k < fit.families[j].parameters.size(); ++k, ++at) {
-          if (j != i) start.push_back(fit.p[at]);
-        }
-      }
-      Fit without = model.fit(rest, Eigen::Map<Eigen::VectorXd>(start.data(), Eigen::Index(start.size())));
-      if (fit.log_evidence - without.log_evidence < addition_needed(model, without, none, t)) {
-        fit = std::move(without);
-        dropped = true;
-      }
-    }
+// Combinations that bring too little over anything simpler are dropped: each further effect has to pay.
+std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, const Thresholds& t) {
+  const double none = fits.front().log_evidence;
+  std::stable_sort(fits.begin(), fits.end(),
+                   [](const Fit& a, const Fit& b) { return a.families.size() < b.families.size(); });
+  std::vector<Fit> kept;
+  for (Fit& fit : fits) {
+    const bool pays = std::all_of(kept.begin(), kept.end(), [&](const Fit& simpler) {
+      if (simpler.families.empty()) return true;
+      const double extra = double(fit.families.size()) - double(simpler.families.size());
+      return extra <= 0 || fit.log_evidence - simpler.log_evidence >= extra * addition_needed(model, simpler, none, t);
+    });
+    if (pays) kept.push_back(std::move(fit));
   }
-  return fit;
+  return kept;
 }
 
-bool contains(const Fit& larger, const Fit& smaller) {
-  return std::all_of(smaller.families.begin(), smaller.families.end(), [&](const Family& f) {
-    return std::any_of(larger.families.begin(), larger.families.end(),
-                       [&](const Family& g) { return g.effect == f.effect; });
-  });
+// A combination that predicts held-out runs worse than something simpler gives way to it.
+void prefer_what_predicts(const Model& model, std::vector<Cause>& causes) {
+  while (causes.front().fit.families.size() > 1) {
+    const Cause& front = causes.front();
+    const auto simpler = std::find_if(causes.begin(), causes.end(), [&](const Cause& c) {
+      return !c.fit.families.empty() && c.fit.families.size() < front.fit.families.size();
+    });
+    if (simpler == causes.end()) return;
+    const Closure with = held_out_closure(model, front.fit);
+    const Closure without = held_out_closure(model, simpler->fit);
+    if (!with.known || with.after_mm <= without.after_mm) return;
+    causes.erase(causes.begin());
+  }
 }
 
 Stage stage_of(const Fit& fit) { return find_effect(fit.families.front().effect).stage; }
@@ -124,23 +125,10 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   const Screen screen(model, excluded);
   std::vector<Fit> fits = search(model, screen, t, say);
   const Fit none = fits.front();
+  fits = worth_their_cost(model, std::move(fits), t);
   d.causes = ranked(fits, t);
-  if (d.causes.front().fit.families.size() > 1) {
-    say("pruning");
-    Fit lean = pruned(model, d.causes.front().fit, none.log_evidence, t);
-    if (lean.families.size() < d.causes.front().fit.families.size()) {
-      fits.push_back(std::move(lean));
-      // What the pruned effects brought was not worth their cost.
-      const std::string keep = fits.back().name();
-      // Combinations that add to it what is not worth its cost leave the list.
-      const Fit& leanest = fits.back();
-      std::erase_if(fits, [&](const Fit& f) { return f.families.size() > leanest.families.size() && contains(f, leanest); });
-      d.causes = ranked(fits, t);
-      const auto kept = std::find_if(d.causes.begin(), d.causes.end(), [&](const Cause& c) { return c.name == keep; });
-      std::rotate(d.causes.begin(), kept, kept + 1);
-      if (d.causes.size() > 1) d.causes.front().score = std::max(d.causes.front().score, d.causes[1].score);
-    }
-  }
+  say("held-out runs");
+  prefer_what_predicts(model, d.causes);
   say("what no effect explains");
   const double generic_none = generic_gain(model, none);
   const double gap = std::max(d.causes.front().name == "none" ? 0 : d.causes.front().score, generic_none);

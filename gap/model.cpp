@@ -1,5 +1,7 @@
 #include "gap/model.h"
 
+#include "gap/closure.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -267,11 +269,11 @@ void Model::make_nuisances() {
     group_of.push_back(std::size_t(found - groups.begin()));
     if (found == groups.end()) groups.push_back(key);
   }
-  constexpr int kShared = 4;
+  constexpr int kShared = 5;
   constexpr int kPerGroup = 5;
   nuisances_ = kShared + kPerGroup * int(groups.size());
   nuisance_sd_.resize(nuisances_);
-  nuisance_sd_.head(kShared) << scatter_.marker_m, scatter_.marker_m, scatter_.clock_s, scatter_.creep_across;
+  nuisance_sd_.head(kShared) << scatter_.marker_m, scatter_.marker_m, scatter_.clock_s, scatter_.creep_across, 1;
   // No two engines, and no real tyre, grip sideways alike: the creep of the tyres is a nuisance up to its usual size.
   Effect creep = neutral_effect(find_effect("tyre_creep"));
   constexpr double kCreep = 0.01;
@@ -283,6 +285,7 @@ void Model::make_nuisances() {
         << (arcs ? scatter_.arc_leg_scale : scatter_.leg_scale), scatter_.turn_scale,
         scatter_.arc_scale, scatter_.heading_rad_pm, scatter_.lateral;
   }
+  const auto slipped = little_slip();
   local_sd_ = Eigen::VectorXd::Constant(kLocal, scatter_.radius);
   nuisance_columns_.resize(recording_.runs.size());
   local_columns_.resize(recording_.runs.size());
@@ -302,6 +305,7 @@ void Model::make_nuisances() {
       raw.block<3, 1>(row, 2) << u.x_m / dt, u.y_m / dt, u.theta_rad / dt;
     }
     raw.col(3) = track_error(nominal_[r], crept[r]) / kCreep;
+    if (!slipped.empty()) raw.col(4) = track_error(nominal_[r], slipped[r]);
     const double b = recording_.robot.wheelbase_m;
     const auto wheels = travel(recording_.runs[r], recording_.robot);
     std::vector<std::vector<Eigen::Vector3d>> kicks(kPerGroup + kLocal,
@@ -325,6 +329,28 @@ void Model::make_nuisances() {
     local_columns_[r] = Eigen::MatrixXd::Zero(3 * Eigen::Index(n) + kFeatureRows, kLocal);
     local_columns_[r].topRows(3 * Eigen::Index(n)) = filters_[r].whiten(local);
   }
+}
+
+// Tracks with the floor just so slippery that the robot moves by a share of the noise floor: engines, and tyres, differ
+// in when exactly they let go under a jolt. Empty if no floor is that slippery.
+std::vector<std::vector<Pose2>> Model::little_slip() const {
+  const double wanted_m = scatter_.slip_share * noise_floor_m(*this);
+  Effect slippery = neutral_effect(find_effect("slippery_floor"));
+  double grips = 0.8;
+  double slips = 0.02;
+  std::vector<std::vector<Pose2>> tracks;
+  for (int i = 0; i < 7; ++i) {
+    const double friction = std::sqrt(grips * slips);
+    slippery.values.numbers = {friction};
+    auto trial = simulate({{slippery}}).front();
+    if (displacement_m(trial, nominal_) > wanted_m) {
+      slips = friction;
+      tracks = std::move(trial);
+    } else {
+      grips = friction;
+    }
+  }
+  return tracks;
 }
 
 std::vector<Eigen::VectorXd> Model::residuals(const std::vector<std::vector<Pose2>>& tracks,

@@ -26,6 +26,7 @@ struct Scatter {
   double marker_m = 0.003;      ///< of the tracked point from the axle's middle
   double clock_s = 0.05;        ///< between encoders and tracker
   double creep_across = 0.03;   ///< sideways creep of the tyres
+  double slip_share = 0.2;      ///< displacement by slip under jolts, in noise floors
   double gain = 4e-4;           ///< of counts over commands
   double lag_s = 0.010;         ///< of counts behind commands
 };
@@ -127,6 +128,7 @@ class Model {
   void estimate_noise();
   void make_filters();
   void make_nuisances();
+  std::vector<std::vector<Pose2>> little_slip() const;
   void score(Fit& fit) const;
   CommandFeatures features(std::size_t run, const std::vector<std::array<double, 2>>& counts_rad) const;
   CommandFeatures predicted_features(std::size_t run, const std::vector<Effect>& effects) const;
