@@ -46,7 +46,8 @@ gap::Say stage_printer() {
 
 gap::Simulator simulator(const Replay& replay) {
   return {[&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.poses(run, effects); },
-          [&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.counts(run, effects); }};
+          [&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.counts(run, effects); },
+          [&replay](const std::vector<Effect>& effects) { return replay.habits(effects); }};
 }
 
 // The scenario with the diagnosed effects added; each effect once.

@@ -284,6 +284,14 @@ std::vector<std::array<double, 2>> Replay::counts(std::size_t index, const std::
   return arrived(shaft, run.encoders, r.encoders);
 }
 
+std::array<double, 5> Replay::habits(const std::vector<Effect>& effects) const {
+  const Rig r = rig(0, effects);
+  const double period_s = 1 / recording_.encoder_rate_hz;
+  return {std::log(r.demand.acceleration_factor), std::log(r.demand.acceleration_factor * r.demand.turn_speed_factor),
+          std::log(r.demand.turn_speed_factor), std::log(std::max(1.0, r.encoders.sampling_interval_s / period_s)),
+          std::log(r.encoders.ticks_per_revolution / recording_.robot.ticks_per_revolution)};
+}
+
 Scenario scenario_of(const Recording& recording, const std::string& directory) {
   Scenario s;
   s.file = (std::filesystem::path(directory) / "recording.yaml").string();

@@ -29,6 +29,10 @@ class Replay {
   /// samples when the recorded commands are driven open loop. Lost counts are lost in the mean.
   std::vector<std::array<double, 2>> counts(std::size_t run, const std::vector<Effect>& effects) const;
 
+  /// Logarithms of what effects change in how the robot is driven and read: linear acceleration, angular acceleration,
+  /// speed of turns, sampling interval over the reading period (0 if shorter), resolution over the recorded one.
+  std::array<double, 5> habits(const std::vector<Effect>& effects) const;
+
  private:
   Rig rig(std::size_t run, const std::vector<Effect>& effects) const;
 

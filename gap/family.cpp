@@ -53,6 +53,21 @@ Family vector_family(const std::string& effect, const std::string& size, const s
   return family;
 }
 
+// A number that counts in proportion: fitted as the logarithm of its ratio to `unit`.
+Family logarithmic(const std::string& effect, const std::string& parameter, double unit, double prior_sd, double min,
+                   double max) {
+  const EffectInfo& info = find_effect(effect);
+  const EffectValues base = neutral_effect(info).values;
+  const std::size_t i = index_of(info, parameter);
+  Family family{effect, parameter, {{"log " + parameter, 0, 0.05, prior_sd, min, max}}, {}, {}, true, 0};
+  family.values = [base, i, unit](const Eigen::VectorXd& p) {
+    EffectValues values = base;
+    values.numbers[i] = unit * std::exp(p[0]);
+    return values;
+  };
+  return family;
+}
+
 constexpr double kFree = 1e9;
 
 FreeParameter signed_one(const char* name, double step, double prior_sd) {
@@ -110,8 +125,12 @@ Family on_soft_tyres(Family family) {
 
 }  // namespace
 
-std::vector<Family> plain_families() {
+std::vector<Family> plain_families(double period_s, double ticks_per_revolution) {
   std::vector<Family> all = {
+      logarithmic("over_acceleration", "factor", 1, 2, -3, 6),
+      logarithmic("fast_turning", "factor", 1, 1.5, -3, 4),
+      logarithmic("encoder_sampling", "interval_s", period_s, 1, 0, 4),
+      logarithmic("encoder_resolution", "ticks_per_revolution", ticks_per_revolution, 2, -7, 0),
       direct("wheel_radius_scale", "both", {signed_one("relative", 1e-3, 0.01)}),
       direct("wheel_radius_difference", "right over left", {signed_one("relative", 1e-3, 0.004)}),
       direct("wheelbase", "relative", {signed_one("relative", 1e-3, 0.015)}),

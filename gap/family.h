@@ -39,7 +39,8 @@ std::vector<Effect> effects_of(const Family& family, const Eigen::VectorXd& p);
 Effect effect_of(const Family& family, const Eigen::VectorXd& p);
 
 /// Every family of the catalogue that needs no search for a place or moment.
-std::vector<Family> plain_families();
+/// `period_s` and `ticks_per_revolution`: of the recording's encoders.
+std::vector<Family> plain_families(double period_s, double ticks_per_revolution);
 
 /// Families of local effects, at a place of the floor or a moment of one run.
 Family bump_family(double x_m, double y_m, double direction_rad);

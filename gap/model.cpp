@@ -16,12 +16,13 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr int kFeatureRows = 3;
+constexpr int kFeatureRows = 8;  // three of a run, and five of the recording, which stand with the first run
 constexpr int kLocal = 2;
 
 bool acts_on_counts(const std::vector<Effect>& effects) {
   return std::any_of(effects.begin(), effects.end(), [](const Effect& e) {
-    return e.info->stage == Stage::drivetrain || e.info->stage == Stage::encoder;
+    return e.info->stage == Stage::drivetrain || e.info->stage == Stage::encoder ||
+           e.info->name == "over_acceleration" || e.info->name == "fast_turning";
   });
 }
 
@@ -96,6 +97,8 @@ Model::Model(const Recording& recording, Simulator simulator, const Scatter& sca
     measured_[r] = features(r, counts);
     nominal_features_[r] = predicted_features(r, {});
   }
+  habits_ = measured_habits(recording, stretches_);
+  nominal_habits_ = predicted_habits({});
   estimate_noise();
   make_filters();
   make_nuisances();
@@ -164,10 +167,18 @@ CommandFeatures Model::predicted_features(std::size_t run, const std::vector<Eff
   return features(run, simulator_.commands(run, effects));
 }
 
-Eigen::VectorXd Model::feature_rows(std::size_t run, const CommandFeatures& a, const CommandFeatures& b) const {
+Habits Model::predicted_habits(const std::vector<Effect>& effects) const {
+  return simulator_.habits ? simulator_.habits(effects) : Habits{};
+}
+
+Eigen::VectorXd Model::feature_rows(std::size_t run, const CommandFeatures& a, const CommandFeatures& b, const Habits& ha,
+                                    const Habits& hb) const {
   Eigen::VectorXd rows = Eigen::VectorXd::Zero(kFeatureRows);
+  if (run == 0) {
+    for (std::size_t i = 0; i < ha.size(); ++i) rows[3 + Eigen::Index(i)] = (ha[i] - hb[i]) / kHabitsSd[i];
+  }
   if (!measured_[run].known || !a.known || !b.known) return rows;
-  rows << (a.left_gain - b.left_gain) / scatter_.gain, (a.right_gain - b.right_gain) / scatter_.gain,
+  rows.head<3>() << (a.left_gain - b.left_gain) / scatter_.gain, (a.right_gain - b.right_gain) / scatter_.gain,
       (a.lag_s - b.lag_s) / scatter_.lag_s;
   return rows;
 }
@@ -360,7 +371,8 @@ std::vector<Eigen::VectorXd> Model::residuals(const std::vector<std::vector<Pose
   tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t r) {
     const Eigen::VectorXd white = filters_[r].whiten(track_error(tracks[r], truth_[r]));
     result[r].resize(white.size() + kFeatureRows);
-    result[r] << white, feature_rows(r, measured_[r], counts ? predicted_features(r, effects) : nominal_features_[r]);
+    result[r] << white, feature_rows(r, measured_[r], counts ? predicted_features(r, effects) : nominal_features_[r], habits_,
+        counts ? predicted_habits(effects) : nominal_habits_);
   });
   return result;
 }
@@ -381,7 +393,7 @@ std::vector<Eigen::MatrixXd> Model::columns(const std::vector<Effect>& at,
       raw.col(c) = track_error(tracks[0][r], tracks[j + 1][r]) / steps[j];
       if (acts_on_counts(stepped[j])) {
         const CommandFeatures before = acts_on_counts(at) ? predicted_features(r, at) : nominal_features_[r];
-        result[r].col(c).tail(kFeatureRows) = feature_rows(r, predicted_features(r, stepped[j]), before) / steps[j];
+        result[r].col(c).tail(kFeatureRows) = feature_rows(r, predicted_features(r, stepped[j]), before, predicted_habits(stepped[j]), predicted_habits(at)) / steps[j];
       }
     }
     result[r].topRows(n) = filters_[r].whiten(raw);
@@ -572,7 +584,8 @@ Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start
         raw.col(j) = track_error(tracks[0][r], tracks[std::size_t(j) + 1][r]) / steps[std::size_t(j)];
         if (acts_on_counts(set)) {
           J[r].col(j).tail(kFeatureRows) =
-              feature_rows(r, predicted_features(r, set), predicted_features(r, sets[0])) / steps[std::size_t(j)];
+              feature_rows(r, predicted_features(r, set), predicted_features(r, sets[0]), predicted_habits(set),
+                           predicted_habits(sets[0])) / steps[std::size_t(j)];
         }
       }
       J[r].topRows(n) = filters_[r].whiten(raw);

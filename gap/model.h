@@ -6,6 +6,7 @@
 
 #include "gap/evidence.h"
 #include "gap/family.h"
+#include "gap/habits.h"
 #include "gap/simulator.h"
 #include "gap/track_filter.h"
 #include "recording/recording.h"
@@ -132,7 +133,9 @@ class Model {
   void score(Fit& fit) const;
   CommandFeatures features(std::size_t run, const std::vector<std::array<double, 2>>& counts_rad) const;
   CommandFeatures predicted_features(std::size_t run, const std::vector<Effect>& effects) const;
-  Eigen::VectorXd feature_rows(std::size_t run, const CommandFeatures& a, const CommandFeatures& b) const;
+  Eigen::VectorXd feature_rows(std::size_t run, const CommandFeatures& a, const CommandFeatures& b, const Habits& ha,
+                               const Habits& hb) const;
+  Habits predicted_habits(const std::vector<Effect>& effects) const;
 
   const Recording& recording_;
   Simulator simulator_;
@@ -147,6 +150,8 @@ class Model {
   std::vector<TrackFilter> filters_;
   std::vector<CommandFeatures> measured_;
   std::vector<CommandFeatures> nominal_features_;
+  Habits habits_{};          // measured
+  Habits nominal_habits_{};
   int nuisances_ = 0;
   Eigen::VectorXd nuisance_sd_;
   std::vector<Eigen::MatrixXd> nuisance_columns_;   // per run, whitened, with feature rows of zeros

@@ -32,7 +32,8 @@ std::pair<int, double> leg_at(const std::vector<Stretch>& stretches, double time
 }  // namespace
 
 Screen::Screen(const Model& model, const std::set<std::string>& excluded) : model_(model), excluded_(excluded) {
-  for (const Family& f : plain_families()) {
+  const Recording& recording = model.recording();
+  for (const Family& f : plain_families(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution)) {
     if (excluded.count(f.effect) == 0) families_.push_back(f);
   }
   std::vector<std::vector<Effect>> stepped;
@@ -165,8 +166,10 @@ std::vector<Fit> search(const Model& model, const Screen& screen, const Threshol
       Fit fit = model.fit(families, start);
       fit.size = displacement_m(fit.tracks, base.tracks) / floor_m;
       // What moves counts against commands, and not the robot, is seen there.
-      const Stage stage = find_effect(c.family.effect).stage;
-      if (fit.size < thresholds.smallest && stage != Stage::drivetrain && stage != Stage::encoder) return;
+      const EffectInfo& info = find_effect(c.family.effect);
+      const bool seen_in_counts = info.stage == Stage::drivetrain || info.stage == Stage::encoder ||
+                                  info.name == "over_acceleration" || info.name == "fast_turning";
+      if (fit.size < thresholds.smallest && !seen_in_counts) return;
       fits.push_back(std::move(fit));
     } catch (const RunError&) {
       // A robot that cannot be simulated is no explanation.

@@ -21,6 +21,7 @@ using ReplayCommands =
 struct Simulator {
   ReplayTicks ticks;
   ReplayCommands commands;
+  std::function<std::array<double, 5>(const std::vector<Effect>&)> habits;  ///< as gap/habits.h, under effects
 };
 
 }  // namespace umbsim::gap

@@ -1,0 +1,167 @@
+#include "gap/habits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <vector>
+
+namespace umbsim::gap {
+namespace {
+
+double median(std::vector<double> x) {
+  if (x.empty()) return 0;
+  std::nth_element(x.begin(), x.begin() + std::ptrdiff_t(x.size() / 2), x.end());
+  return x[x.size() / 2];
+}
+
+// When a growing signal first reaches a level, between samples.
+double first_time(const std::vector<double>& t, const std::vector<double>& x, double level) {
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    if (x[i] >= level) {
+      const double part = x[i] > x[i - 1] ? std::clamp((level - x[i - 1]) / (x[i] - x[i - 1]), 0.0, 1.0) : 1;
+      return t[i - 1] + part * (t[i] - t[i - 1]);
+    }
+  }
+  return t.back();
+}
+
+// Plateau of one stretch's speed, and how fast it is reached between a fifth and four fifths of it.
+struct Ramp {
+  double speed = 0;
+  double acceleration = 0;
+};
+
+Ramp ramp(const RecordedRun& run, const Stretch& s, const RecordedRobot& robot) {
+  std::vector<double> t;
+  std::vector<double> v;
+  const double k = 2 * M_PI / robot.ticks_per_revolution;
+  const double turn = s.kind == Stretch::Kind::turn ? 1 : 0;
+  const std::size_t from = s.first > 5 ? s.first - 5 : 0;
+  for (std::size_t i = from + 1; i <= s.last; ++i) {
+    const EncoderSample& a = run.encoders[i - 1];
+    const EncoderSample& b = run.encoders[i];
+    const double dt = b.time_s - a.time_s;
+    const double left = run.has_commands ? b.left_command_radps : k * double(b.left_ticks - a.left_ticks) / dt;
+    const double right = run.has_commands ? b.right_command_radps : k * double(b.right_ticks - a.right_ticks) / dt;
+    const double speed = turn ? (right - left) / robot.wheelbase_m : (right + left) / 2;
+    t.push_back(b.time_s);
+    v.push_back(std::abs(speed) * robot.wheel_radius_m);
+  }
+  if (v.size() < 4) return {};
+  std::vector<double> sorted = v;
+  std::sort(sorted.begin(), sorted.end());
+  Ramp r;
+  r.speed = sorted[sorted.size() * 3 / 4];
+  const double dt = first_time(t, v, 0.8 * r.speed) - first_time(t, v, 0.2 * r.speed);
+  r.acceleration = dt > 1e-4 ? 0.6 * r.speed / dt : 0;
+  return r;
+}
+
+// Interval at which moving counters change, over the reading period.
+double sampling_ratio(const Recording& recording, const std::vector<std::vector<Stretch>>& stretches) {
+  double moving = 0;
+  double changes = 0;
+  for (std::size_t r = 0; r < recording.runs.size(); ++r) {
+    const auto& e = recording.runs[r].encoders;
+    for (const Stretch& s : stretches[r]) {
+      if (s.kind == Stretch::Kind::still || s.last < s.first + 20) continue;
+      // Away from the ends, where a wheel may be slow.
+      const std::size_t a = s.first + (s.last - s.first) / 4;
+      const std::size_t b = s.last - (s.last - s.first) / 4;
+      const double per_period = std::abs(double(e[b].left_ticks - e[a].left_ticks)) / double(b - a);
+      if (per_period < 4) continue;
+      for (std::size_t i = a + 1; i <= b; ++i) {
+        moving += 1;
+        if (e[i].left_ticks != e[i - 1].left_ticks || e[i].right_ticks != e[i - 1].right_ticks) changes += 1;
+      }
+    }
+  }
+  return changes > 20 ? moving / changes : 1;
+}
+
+// Coarseness of the counts: the largest step q such that all counts are multiples of it (rounded). 1 if none.
+double coarseness(const Recording& recording) {
+  std::vector<double> counts;
+  for (const EncoderSample& s : recording.runs.front().encoders) {
+    if (s.left_ticks != 0) counts.push_back(double(std::abs(s.left_ticks)));
+  }
+  if (counts.size() < 50) return 1;
+  double smallest = 1e9;
+  for (std::size_t i = 1; i < counts.size(); ++i) {
+    const double step = std::abs(counts[i] - counts[i - 1]);
+    if (step > 0) smallest = std::min(smallest, step);
+  }
+  if (smallest < 2 || smallest > 1e6) return 1;
+  std::sort(counts.begin(), counts.end());
+  const auto coherence = [&](double q, double up_to) {
+    std::complex<double> sum = 0;
+    double n = 0;
+    for (const double c : counts) {
+      if (c > up_to) break;
+      sum += std::polar(1.0, 2 * M_PI * c / q);
+      n += 1;
+    }
+    return n > 10 ? std::abs(sum) / n : 0;
+  };
+  // From a coarse look at the first counts to a fine one at all of them.
+  double best = smallest;
+  double width = 1;
+  for (double up_to = smallest * 12; width > 1e-6 * best; up_to *= 4) {
+    double top = -1;
+    const double centre = best;
+    for (int i = -40; i <= 40; ++i) {
+      const double q = centre + width * i / 40;
+      if (q < 1.5) continue;
+      const double value = coherence(q, up_to);
+      if (value > top) {
+        top = value;
+        best = q;
+      }
+    }
+    if (up_to > counts.back()) break;
+    width /= 4;
+  }
+  return coherence(best, counts.back()) > 0.8 ? best : 1;
+}
+
+}  // namespace
+
+Habits measured_habits(const Recording& recording, const std::vector<std::vector<Stretch>>& stretches) {
+  Habits habits{};
+  const RecordedPath& p = recording.path;
+  std::vector<double> linear;
+  std::vector<double> angular;
+  std::vector<double> turning;
+  for (std::size_t r = 0; r < recording.runs.size(); ++r) {
+    if (!recording.runs[r].has_commands) continue;
+    const bool in_place = recording.runs[r].turn.value_or(p.turn) == "in_place";
+    for (const Stretch& s : stretches[r]) {
+      if (s.kind == Stretch::Kind::still || s.end_s - s.start_s < 0.5) continue;
+      const Ramp x = ramp(recording.runs[r], s, recording.robot);
+      if (x.acceleration <= 0) continue;
+      if (s.kind == Stretch::Kind::leg) {
+        linear.push_back(x.acceleration);
+      } else if (in_place) {
+        angular.push_back(x.acceleration);
+        turning.push_back(x.speed);
+      }
+    }
+  }
+  const auto ratio = [](const std::vector<double>& measured, const std::optional<double>& declared) {
+    return measured.size() >= 3 && declared && *declared > 0 ? std::log(median(measured) / *declared) : 0;
+  };
+  if (p.shape == "square") {
+    habits[0] = ratio(linear, p.linear_acceleration_mps2);
+    habits[1] = ratio(angular, p.angular_acceleration_radps2);
+    habits[2] = ratio(turning, p.angular_speed_radps);
+  }
+  habits[3] = std::log(sampling_ratio(recording, stretches));
+  habits[4] = -std::log(coarseness(recording));
+  // What is hardly measured is as declared: ramps of one or two samples, a first or last step.
+  for (double& h : habits) {
+    if (std::abs(h) < 0.02) h = 0;
+  }
+  return habits;
+}
+
+}  // namespace umbsim::gap
