@@ -35,6 +35,7 @@ StopRequests::StopRequests() {
 StopRequests::~StopRequests() {
   install(SIGINT, old_interrupt_);
   install(SIGTERM, old_terminate_);
+  received_signal = 0;
 }
 
 int StopRequests::received() { return received_signal; }

@@ -51,10 +51,10 @@ Store Store::open_for(const std::filesystem::path& file, const StoreLayout& layo
     store.create(layout, provenance);
   }
   check_is_store(database);
-  database.run(journal == Journal::wal ? "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL"
-                                       : "PRAGMA journal_mode = TRUNCATE; PRAGMA synchronous = FULL");
   store.read_layout();
   store.check_made_for(layout);
+  database.run(journal == Journal::wal ? "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL"
+                                       : "PRAGMA journal_mode = TRUNCATE; PRAGMA synchronous = FULL");
   store.find_provenance(provenance);
   const std::size_t axes = layout.axes.size(), figures = layout.figures.size();
   store.has_ = database.prepare("SELECT 1 FROM points WHERE point = ?");

@@ -155,6 +155,7 @@ SweepView read_view(const Sweep& sweep, const YamlValue& value) {
   if (map.has("x")) view.x = map.choice("x", "", keys);
   if (map.has("y")) view.y = map.choice("y", "", keys);
   if (map.has("figure")) view.figure = map.choice("figure", "", figure_names());
+  view.logarithmic = map.choice("scale", "linear", {"linear", "log"}) == "log";
   map.finish();
   return view;
 }

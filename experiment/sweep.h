@@ -18,6 +18,7 @@ struct SweepView {
   std::string x;
   std::string y;
   std::string figure;
+  bool logarithmic = false;  ///< colours and curves by the size of the figure, on a logarithmic scale
 };
 
 /// A sweep as a file describes it: one scenario over axes. Points are numbered from 0: the first axis changes slowest,

@@ -19,8 +19,12 @@ constexpr const char* kMain[] = {"umbmark.e_max_syst_m", "umbmark.cw.r_cg_m", "u
                                  "calibration.endpoint.e_", "calibration.heading.e_", "recovery.e_", "recovery.improvement",
                                  "extended.mean_abs", "extended.per_bump"};
 
-bool is_main(const std::string& figure) {
-  return std::any_of(std::begin(kMain), std::end(kMain),
+// Recovered against injected has a picture of its own, whether they vary or not.
+constexpr const char* kAlways[] = {"injected.", "calibration.endpoint.e_", "calibration.heading.e_"};
+
+template <std::size_t N>
+bool begins_with_any(const std::string& figure, const char* const (&beginnings)[N]) {
+  return std::any_of(std::begin(beginnings), std::end(beginnings),
                      [&](const char* begin) { return figure.rfind(begin, 0) == 0; });
 }
 
@@ -40,7 +44,8 @@ std::vector<std::string> varied_figures(Store& store) {
     std::erase_if(open, [&](std::size_t i) { return differs[i] = rows.cell(int(i)) != first[i]; });
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (differs[i]) varied.push_back(all[i]);
+    const bool always = !first.empty() && is_number(first[i]) && begins_with_any(all[i], kAlways);
+    if (differs[i] || always) varied.push_back(all[i]);
   }
   return varied;
 }
@@ -96,7 +101,7 @@ Json rows_json(Store& store, const std::vector<std::string>& columns, std::int64
 Json sweep_report_json(const Sweep& sweep, Store& store, const SweepResult& result) {
   std::vector<std::string> figures = varied_figures(store);
   const std::int64_t points = result.done + std::int64_t(result.failed.size());
-  if (points * std::int64_t(figures.size()) > kPageNumbers) std::erase_if(figures, [](const auto& f) { return !is_main(f); });
+  if (points * std::int64_t(figures.size()) > kPageNumbers) std::erase_if(figures, [](const auto& f) { return !begins_with_any(f, kMain); });
   const std::int64_t stride = 1 + points * std::int64_t(figures.size() + sweep.axes.size()) / kPageNumbers;
   std::vector<std::string> columns;
   for (const Axis& axis : sweep.axes) columns.push_back(axis.key);
@@ -108,7 +113,7 @@ Json sweep_report_json(const Sweep& sweep, Store& store, const SweepResult& resu
   json["design"] = name(sweep.design);
   json["axes"] = axes_json(sweep);
   json["figures"] = figures;
-  json["view"] = {{"x", sweep.view.x}, {"y", sweep.view.y}, {"figure", sweep.view.figure}};
+  json["view"] = {{"x", sweep.view.x}, {"y", sweep.view.y}, {"figure", sweep.view.figure}, {"log", sweep.view.logarithmic}};
   json["stride"] = stride;
   json["rows"] = rows_json(store, columns, stride, result);
   return json;
