@@ -99,6 +99,11 @@ Cell Statement::cell(int column) const {
 
 bool Statement::is_null(int column) const { return sqlite3_column_type(handle_.get(), column) == SQLITE_NULL; }
 
+std::optional<double> Statement::number(int column) const {
+  if (sqlite3_column_type(handle_.get(), column) != SQLITE_FLOAT) return std::nullopt;
+  return sqlite3_column_double(handle_.get(), column);
+}
+
 std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(handle_.get(), column); }
 
 std::string Statement::text(int column) const {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "batch/condition.h"
@@ -48,6 +49,8 @@ class Statement {
   void reset();
   Cell cell(int column) const;
   bool is_null(int column) const;
+  /// Of a column that holds a floating-point number; the quick way.
+  std::optional<double> number(int column) const;
   std::int64_t integer(int column) const;
   std::string text(int column) const;
   int columns() const;

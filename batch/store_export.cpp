@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -74,12 +75,17 @@ void append_csv_text(fmt::memory_buffer& out, const std::string& text) {
   out.push_back('"');
 }
 
+// Nearly all cells are numbers: the format is compiled, and none becomes a Cell first.
+bool append_number(fmt::memory_buffer& out, const Statement& rows, int column) {
+  const std::optional<double> number = rows.number(column);
+  if (!number || !std::isfinite(*number)) return false;
+  fmt::format_to(fmt::appender(out), FMT_COMPILE("{}"), *number);
+  return true;
+}
+
 void append_cell(fmt::memory_buffer& out, const Cell& cell, bool json) {
   if (const auto* integer = std::get_if<std::int64_t>(&cell)) fmt::format_to(std::back_inserter(out), "{}", *integer);
-  else if (const auto* number = std::get_if<double>(&cell)) {
-    if (std::isfinite(*number)) fmt::format_to(std::back_inserter(out), "{}", *number);
-    else append(out, json ? "null" : "");
-  } else if (const auto* text = std::get_if<std::string>(&cell)) {
+  else if (const auto* text = std::get_if<std::string>(&cell)) {
     if (json) append(out, nlohmann::json(*text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     else append_csv_text(out, *text);
   } else if (json) {
@@ -128,7 +134,7 @@ void write_row(Sink& sink, const Statement& rows, bool json, bool first) {
   if (json) append(sink.text, first ? "\n  [" : ",\n  [");
   for (int i = 0; i < rows.columns(); ++i) {
     if (i > 0) append(sink.text, json ? ", " : ",");
-    append_cell(sink.text, rows.cell(i), json);
+    if (!append_number(sink.text, rows, i)) append_cell(sink.text, rows.cell(i), json);
   }
   append(sink.text, json ? "]" : "\n");
 }

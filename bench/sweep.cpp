@@ -1,7 +1,7 @@
 // What a sweep costs beside its runs, and what a large store costs: umbsim_sweep_bench SWEEP.yaml [POINTS].
 // The same points are driven bare, by run_experiment alone, and by run_sweep, in turn, so that both meet the same machine.
 // Processor time is that of all threads, the median of all repeats. Then a store of POINTS (100000) points is written,
-// opened, filtered and exported.
+// merged, opened, filtered and exported.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -92,13 +92,20 @@ void large_store(std::int64_t points, const fs::path& folder) {
     store.settle();
   });
   fmt::print("{} stored points: {:.0f} MB, {:.1f} s to write one by one\n", points, double(fs::file_size(file)) / 1e6, writing.wall_s);
+  const Cost merging = measured([&] {
+    Store merged = Store::open_for(folder / "merged.sqlite", layout, {{"version", "bench"}}, Store::Journal::wal);
+    merged.take_over(file);
+    merged.settle();
+  });
+  fmt::print("merging them into an empty store: {:.1f} s\n", merging.wall_s);
   const auto time = [&](const char* what, const ExportChoice& choice) {
     std::int64_t rows = 0;
     const Cost cost = measured([&] {
       Store store = Store::open(file);
       rows = export_store(store, choice);
     });
-    fmt::print("{}: {} rows, {:.2f} s, {:.0f} MB\n", what, rows, cost.wall_s, double(fs::file_size(choice.file)) / 1e6);
+    fmt::print("{}: {} rows, {:.2f} s ({:.2f} s of processor), {:.0f} MB\n", what, rows, cost.wall_s, cost.cpu_s,
+               double(fs::file_size(choice.file)) / 1e6);
   };
   const std::vector<Condition> where{parse_condition("course.side_m >= 0.5", ""), parse_condition("calibration.method = heading", "")};
   time("opening, all to CSV", {false, {}, {}, folder / "all.csv"});

@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/exit.h"
 #include "cli/tables.h"
+#include "core/text_file.h"
 #include "experiment/figures.h"
 #include "experiment/junit.h"
 #include "experiment/result_json.h"
@@ -36,7 +37,7 @@ void run(const RunArguments& a) {
   const ExperimentResult result = run_experiment(scenario, a.jobs);
   write_run_folder(result, render_report(report_json(result)), out, a.force);
   const std::vector<Check> checks = check(result);
-  if (!a.junit.empty()) write_junit(a.junit, junit_xml(scenario.name, checks, {}));
+  if (!a.junit.empty()) replace_text_file(a.junit, junit_xml(scenario.name, checks, {}));
   fmt::print("{}{}Result in {}: open {}/report.html\n", experiment_table(result), checks_text(checks), out, out);
   if (!all_met(checks)) throw Exit(kUnmet, "an expectation was not met");
 }

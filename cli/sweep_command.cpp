@@ -46,9 +46,9 @@ fs::path folder_of(const SweepArguments& a, const Sweep& sweep) {
 }
 
 void write_results(const Sweep& sweep, Store& store, const SweepResult& result, const fs::path& folder) {
-  write_text_file(folder / "sweep.json", sweep_json(sweep, result).dump(2) + "\n");
-  write_text_file(folder / "provenance.json", provenance_json(sweep.file, 0).dump(2) + "\n");
-  write_text_file(folder / "report.html", render_sweep_report(sweep_report_json(sweep, store, result)));
+  replace_text_file(folder / "sweep.json", sweep_json(sweep, result).dump(2) + "\n");
+  replace_text_file(folder / "provenance.json", provenance_json(sweep.file, 0).dump(2) + "\n");
+  replace_text_file(folder / "report.html", render_sweep_report(sweep_report_json(sweep, store, result)));
 }
 
 void print_failed(const SweepResult& result) {
@@ -65,7 +65,7 @@ void conclude(const Sweep& sweep, const SweepArguments& a, const fs::path& folde
   Store store = Store::open(store_file(folder, {}));
   const SweepResult result = measure_sweep(sweep, store);
   write_results(sweep, store, result, folder);
-  if (!a.junit.empty()) write_junit(a.junit, junit_xml(sweep.name, result.checks, result.failed));
+  if (!a.junit.empty()) replace_text_file(a.junit, junit_xml(sweep.name, result.checks, result.failed));
   fmt::print("{}: {} of {} points driven, {} failed\n", sweep.name, result.done, sweep.points, result.failed.size());
   print_failed(result);
   fmt::print("{}Result in {}: open {}/report.html\n", checks_text(result.checks), folder.string(), folder.string());

@@ -1,12 +1,8 @@
 #include "experiment/junit.h"
 
 #include <tinyxml2.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
-
-#include "core/error.h"
-#include "core/text_file.h"
 
 namespace umbsim {
 namespace {
@@ -63,23 +59,6 @@ std::string junit_xml(const std::string& suite, const std::vector<Check>& checks
   xml.CloseElement();
   xml.CloseElement();
   return xml.CStr();
-}
-
-void write_junit(const std::filesystem::path& file, const std::string& xml) {
-  std::filesystem::path part = file;
-  part += fmt::format(".{}.part", getpid());
-  std::error_code error;
-  try {
-    write_text_file(part, xml);
-    std::filesystem::rename(part, file, error);
-  } catch (const RunError&) {
-    std::filesystem::remove(part, error);
-    throw;
-  }
-  if (!error) return;
-  const std::string why = error.message();
-  std::filesystem::remove(part, error);
-  throw RunError(fmt::format("{}: cannot be written: {}", file.string(), why));
 }
 
 }  // namespace umbsim

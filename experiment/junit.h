@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,8 +17,5 @@ struct FailedPoint {
 /// JUnit XML, as CI systems read it: a test case for every point of every expectation, and an error for every point that
 /// could not be driven. `suite`: the name of the scenario or sweep.
 std::string junit_xml(const std::string& suite, const std::vector<Check>& checks, const std::vector<FailedPoint>& failed);
-
-/// Writes it whole or not at all. Throws RunError.
-void write_junit(const std::filesystem::path& file, const std::string& xml);
 
 }  // namespace umbsim
