@@ -19,7 +19,7 @@ const BadSweep kBadSweeps[] = {
      {"bad.yaml:4:", "course.side_m", "value 2000", "must be > 0 and <= 1000"}},
     {"RangeOutOfRange", "axes:\n  effects.wheelbase.relative: {from: 0, to: 2, count: 3}\n",
      {"bad.yaml:4:", "effects.wheelbase.relative", "value 1", "must be >= -0.5 and <= 0.5"}},
-    {"ValuesThatDoNotFitTogether", "set: {course.turn: arc, course.turn_radius_m: 0.1}\naxes:\n  course.turn_radius_m: [0.1, 0.2]\n  course.side_m: [0.3, 1]\n",
+    {"ValuesThatDoNotFitTogether", "set: {course.turn: arc, course.turn_radius_m: 0.1, course.side_m: 1}\naxes:\n  course.turn_radius_m: [0.1, 0.2]\n  course.side_m: [0.3, 1]\n",
      {"bad.yaml:5:", "point 2", "turn_radius_m = 0.2", "side_m = 0.3"}},
     {"UnknownChoice", "axes:\n  calibration.method: [heading, guess]\n", {"bad.yaml:4:", "'guess'", "none, endpoint, heading"}},
     {"NoSuchRobot", "axes:\n  robot: [labmate.urdf, nobody.urdf]\n", {"bad.yaml:4:", "value nobody.urdf"}},
