@@ -18,10 +18,10 @@ using umbsim::kRunFailed;
 // Every subcommand, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
     umbsim::add_run_command,
-    umbsim::add_sweep_command,
     umbsim::add_calibrate_command,
     umbsim::add_effects_command,
     umbsim::add_explain_command,
+    umbsim::add_sweep_command,
     umbsim::add_gap_command,
 };
 
