@@ -6,6 +6,7 @@ namespace umbsim {
 
 /// Each adds one subcommand to the program and its work as the subcommand's callback.
 void add_run_command(CLI::App& app);
+void add_sweep_command(CLI::App& app);
 void add_calibrate_command(CLI::App& app);
 void add_effects_command(CLI::App& app);
 void add_explain_command(CLI::App& app);

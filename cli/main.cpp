@@ -5,14 +5,15 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/exit.h"
 #include "core/error.h"
 #include "core/yaml_reader.h"
 #include "experiment/build_info.h"
 
 namespace {
 
-constexpr int kBadInput = 2;
-constexpr int kRunFailed = 3;
+using umbsim::kBadInput;
+using umbsim::kRunFailed;
 
 // Every subcommand, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
@@ -20,6 +21,7 @@ constexpr void (*kCommands[])(CLI::App&) = {
     umbsim::add_calibrate_command,
     umbsim::add_effects_command,
     umbsim::add_explain_command,
+    umbsim::add_sweep_command,
     umbsim::add_gap_command,
 };
 
@@ -54,6 +56,9 @@ int main(int argc, char** argv) {
       return kBadInput;
     }
     return app.exit(e) == 0 ? 0 : kBadInput;
+  } catch (const umbsim::Exit& e) {
+    if (*e.what()) fmt::print(stderr, "umbsim: {}\n", e.what());
+    return e.code;
   } catch (const umbsim::InputError& e) {
     fmt::print(stderr, "umbsim: {}\n", e.what());
     return kBadInput;

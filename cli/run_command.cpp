@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/exit.h"
 #include "cli/tables.h"
+#include "core/text_file.h"
+#include "experiment/figures.h"
+#include "experiment/junit.h"
 #include "experiment/result_json.h"
 #include "experiment/run.h"
 #include "experiment/run_folder.h"
@@ -15,10 +19,16 @@ namespace {
 struct RunArguments {
   std::string scenario = UMBSIM_SCENARIOS_DIR "/umbmark.yaml";
   std::string out;
+  std::string junit;
   std::vector<std::string> settings;
   bool force = false;
   int jobs = 0;
 };
+
+// The expectations of the scenario, held against its figures.
+std::vector<Check> check(const ExperimentResult& result) {
+  return umbsim::check(result.scenario.expect, {figure_names(), {{0, result.scenario.name, "", figures_of(result)}}});
+}
 
 void run(const RunArguments& a) {
   const Scenario scenario = read_scenario(a.scenario, a.settings);
@@ -26,7 +36,10 @@ void run(const RunArguments& a) {
   prepare_output_folder(out, a.force);
   const ExperimentResult result = run_experiment(scenario, a.jobs);
   write_run_folder(result, render_report(report_json(result)), out, a.force);
-  fmt::print("{}Result in {}: open {}/report.html\n", experiment_table(result), out, out);
+  const std::vector<Check> checks = check(result);
+  if (!a.junit.empty()) replace_text_file(a.junit, junit_xml(scenario.name, checks, {}));
+  fmt::print("{}{}Result in {}: open {}/report.html\n", experiment_table(result), checks_text(checks), out, out);
+  if (!all_met(checks)) throw Exit(kUnmet, "an expectation was not met");
 }
 
 }  // namespace
@@ -38,6 +51,7 @@ void add_run_command(CLI::App& app) {
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<scenario name>");
   command->add_option("--set", a->settings, "Replace a value of the scenario: --set course.side_m=2 (repeatable)")
       ->allow_extra_args(false);
+  command->add_option("--junit", a->junit, "Write what the scenario's expectations say as JUnit XML");
   command->add_flag("--force", a->force, "Replace a finished result");
   command->add_option("-j,--jobs", a->jobs, "Runs driven at the same time; 0: one per core")
       ->check(CLI::Range(0, 1024));

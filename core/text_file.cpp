@@ -1,5 +1,7 @@
 #include "core/text_file.h"
 
+#include <unistd.h>
+
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -54,6 +56,22 @@ void write_text_file(const std::filesystem::path& file, std::string_view text) {
     throw RunError(
         fmt::format("{}: cannot be written completely: {}", name, std::strerror(written ? errno : write_error)));
   }
+}
+
+void replace_text_file(const std::filesystem::path& file, std::string_view text) {
+  std::filesystem::path part = file;
+  part += fmt::format(".{}.part", getpid());
+  std::error_code error, ignored;
+  try {
+    write_text_file(part, text);
+  } catch (const RunError&) {
+    std::filesystem::remove(part, ignored);
+    throw;
+  }
+  std::filesystem::rename(part, file, error);
+  if (!error) return;
+  std::filesystem::remove(part, ignored);
+  throw RunError(fmt::format("{}: cannot be written: {}", file.string(), error.message()));
 }
 
 }  // namespace umbsim

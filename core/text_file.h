@@ -14,4 +14,7 @@ std::string read_text_file(const std::filesystem::path& file, std::size_t max_by
 /// Replaces the content of a file. Throws RunError naming the file if it cannot be written completely.
 void write_text_file(const std::filesystem::path& file, std::string_view text);
 
+/// The same, whole or not at all: written beside the file first, then renamed.
+void replace_text_file(const std::filesystem::path& file, std::string_view text);
+
 }  // namespace umbsim

@@ -1,3 +1,5 @@
+#include <map>
+
 #include <fmt/format.h>
 
 #include "recording/yaml_text.h"
@@ -58,6 +60,17 @@ std::string effects_block(const std::vector<Effect>& effects) {
   return text;
 }
 
+std::string expect_block(const std::vector<Expectation>& expectations) {
+  std::map<std::string, std::string> by_figure;
+  for (const Expectation& e : expectations) {
+    std::string& items = by_figure[e.figure];
+    items += (items.empty() ? "{" : ", {") + bounds_text(e, ": ", ", ") + "}";
+  }
+  std::string text = by_figure.empty() ? "" : "expect:\n";
+  for (const auto& [figure, items] : by_figure) text += fmt::format("  {}: [{}]\n", figure, items);
+  return text;
+}
+
 std::string course_block(const Course& c) {
   return fmt::format(
       "course:\n  shape: square\n  side_m: {}\n  turn: {}\n  turn_radius_m: {}\n  linear_speed_mps: {}\n"
@@ -105,7 +118,7 @@ std::string resolved_yaml(const Scenario& s) {
       "physics:\n  step_s: {}\n  fine_step_s: {}\n  gravity_mps2: {}\n  static_sink_m: {}\n  damping_ratio: {}\n",
       s.physics.step_s, s.physics.fine_step_s, s.physics.gravity_mps2, s.physics.softness.static_sink_m,
       s.physics.softness.damping_ratio);
-  return text + effects_block(s.effects);
+  return text + effects_block(s.effects) + expect_block(s.expect);
 }
 
 }  // namespace umbsim

@@ -26,12 +26,13 @@ std::vector<RunSpec> plan_runs(const Scenario& s, bool bumped, int first_number)
 }
 
 void drive_all(ExperimentResult& result, const OdometryParameters& odometry, const std::vector<RunSpec>& specs,
-               Recording& recording, std::vector<PoseTrack>& tracks) {
-  Progress progress("driving", int(specs.size()));
+               Recording& recording, std::vector<PoseTrack>& tracks, bool show_progress) {
+  std::optional<Progress> progress;
+  if (show_progress) progress.emplace("driving", int(specs.size()));
   std::vector<DrivenRun> driven(specs.size());
   tbb::parallel_for(std::size_t(0), specs.size(), [&](std::size_t i) {
     driven[i] = drive_run(result.scenario, result.nominal, odometry, specs[i]);
-    progress.step();
+    if (progress) progress->step();
   });
   for (DrivenRun& d : driven) {
     result.cost.steps += d.cost.steps;
@@ -78,7 +79,7 @@ bool another_pass(const Umbmark& u) {
 
 // Corrections into the odometry, and the squares again; a further pass only where it can pay (NUMBERS: E_max > 3
 // standard errors).
-void calibrate_and_drive_again(ExperimentResult& result, int next_number) {
+void calibrate_and_drive_again(ExperimentResult& result, int next_number, bool show_progress) {
   const CalibrationChoice& choice = result.scenario.calibration;
   if (choice.method == Calibrate::none || !result.umbmark) return;
   const auto method =
@@ -91,7 +92,7 @@ void calibrate_and_drive_again(ExperimentResult& result, int next_number) {
     CalibrationPass done{odometry, empty_recording(result.scenario, result.nominal, result.odometry), {}, {}};
     const std::vector<RunSpec> specs = plan_runs(result.scenario, false, next_number);
     next_number += int(specs.size());
-    drive_all(result, odometry, specs, done.recording, done.tracks);
+    drive_all(result, odometry, specs, done.recording, done.tracks, show_progress);
     done.umbmark = umbmark(done.recording, odometry);
     result.passes.push_back(std::move(done));
     last = &result.passes.back().umbmark;
@@ -105,7 +106,7 @@ InjectedErrors injected_errors(const Rig& rig, const OdometryParameters& o) {
   return {actual / (o.right_radius_m / o.left_radius_m), rig.robot.wheelbase_m() / o.wheelbase_m};
 }
 
-ExperimentResult run_experiment(const Scenario& scenario, int jobs) {
+ExperimentResult run_experiment(const Scenario& scenario, int jobs, bool show_progress) {
   const auto start = std::chrono::steady_clock::now();
   std::optional<tbb::global_control> limit;
   if (jobs > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(jobs));
@@ -125,10 +126,10 @@ ExperimentResult run_experiment(const Scenario& scenario, int jobs) {
     specs.insert(specs.end(), bumped.begin(), bumped.end());
   }
   result.recording = empty_recording(scenario, result.nominal, result.odometry);
-  drive_all(result, result.odometry, specs, result.recording, result.tracks);
+  drive_all(result, result.odometry, specs, result.recording, result.tracks, show_progress);
   measure(result);
 
-  calibrate_and_drive_again(result, int(specs.size()));
+  calibrate_and_drive_again(result, int(specs.size()), show_progress);
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -44,8 +44,8 @@ struct ExperimentResult {
 };
 
 /// Drives, measures, calibrates, drives again. Runs go in parallel on `jobs` threads (0: all cores); the result does
-/// not depend on their number, but for wall_s. Throws InputError, RunError.
-ExperimentResult run_experiment(const Scenario& scenario, int jobs);
+/// not depend on their number, but for wall_s. `show_progress`: on a terminal. Throws InputError, RunError.
+ExperimentResult run_experiment(const Scenario& scenario, int jobs, bool show_progress = true);
 
 /// E_d and E_b of the simulated robot as built, against the odometry's beliefs.
 InjectedErrors injected_errors(const Rig& rig, const OdometryParameters& odometry);

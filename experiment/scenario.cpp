@@ -212,11 +212,15 @@ const char* name(Calibrate method) {
 Scenario read_scenario(const std::string& file, const std::vector<std::string>& settings) {
   const YamlValue document = YamlValue::load(file);
   for (const std::string& setting : settings) apply_setting(document, setting);
+  return read_scenario(document);
+}
+
+Scenario read_scenario(const YamlValue& document) {
   YamlMap map(document);
   Scenario s;
-  s.file = file;
+  s.file = document.file();
   map.choice("format", "umbsim-scenario/1", {"umbsim-scenario/1"});
-  s.name = map.string("name", fs::path(file).stem().string());
+  s.name = map.string("name", fs::path(s.file).stem().string());
   if (s.name.empty() || s.name.find_first_of("/\\") != std::string::npos || s.name.front() == '.') {
     map.at("name").fail("must be usable as a folder name: not empty, without slashes, not starting with a dot");
   }
@@ -236,6 +240,7 @@ Scenario read_scenario(const std::string& file, const std::vector<std::string>& 
   if (const auto v = map.find("calibration")) s.calibration = read_calibration(*v);
   if (const auto v = map.find("physics")) s.physics = read_physics(*v);
   if (const auto v = map.find("effects")) s.effects = read_effects(*v);
+  if (const auto v = map.find("expect")) s.expect = read_expectations(*v, ExpectationsOf::run);
   map.finish();
   return s;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "effects/catalogue.h"
+#include "experiment/expect.h"
 #include "odometry/dead_reckoning.h"
 #include "odometry/uncertainty.h"
 #include "sim/world.h"
@@ -97,11 +98,15 @@ struct Scenario {
   CalibrationChoice calibration;
   PhysicsOptions physics;
   std::vector<Effect> effects;
+  std::vector<Expectation> expect;  ///< what its figures must be
 };
 
 /// Reads a scenario file. Throws InputError with file, line, column, key, value and bound.
 /// `settings` are `key.path=value` texts (`course.side_m=2`) that replace or add values of the file first.
 Scenario read_scenario(const std::string& file, const std::vector<std::string>& settings = {});
+
+/// The same from a document that is loaded already; its file() is where the scenario stands.
+Scenario read_scenario(const YamlValue& document);
 
 /// Every value written out, in the form that read_scenario takes.
 std::string resolved_yaml(const Scenario& scenario);

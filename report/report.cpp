@@ -47,16 +47,20 @@ std::string title_of(const nlohmann::json& data) {
   return title != data.end() && title->is_string() ? title->get<std::string>() : "UMBmark report";
 }
 
-}  // namespace
-
-std::string render_report(const nlohmann::json& data) {
+std::string page_of(const nlohmann::json& data, std::string_view script) {
   if (!data.is_object()) throw std::invalid_argument("render_report: data must be a JSON object");
   const std::string title = html_text(title_of(data));
   const std::string json = script_json(data);
   return replace_all(
       web::page_html,
       std::array<Replacement, 4>{
-          {{"@TITLE@", title}, {"@STYLE@", web::report_css}, {"@DATA@", json}, {"@SCRIPT@", web::report_js}}});
+          {{"@TITLE@", title}, {"@STYLE@", web::report_css}, {"@DATA@", json}, {"@SCRIPT@", script}}});
 }
+
+}  // namespace
+
+std::string render_report(const nlohmann::json& data) { return page_of(data, web::report_js); }
+
+std::string render_sweep_report(const nlohmann::json& data) { return page_of(data, web::sweep_js); }
 
 }  // namespace umbsim

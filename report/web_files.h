@@ -8,5 +8,6 @@ namespace umbsim::web {
 extern const std::string_view page_html;
 extern const std::string_view report_css;
 extern const std::string_view report_js;
+extern const std::string_view sweep_js;
 
 }  // namespace umbsim::web

@@ -24,11 +24,11 @@ const px = (v) => (Math.round(v * 100) / 100).toString();
 let plotCount = 0;
 
 class Plot {
-  // options: width, height, x: [low, high], y: [low, high], xLabel, yLabel
+  // options: width, height, x: [low, high], y: [low, high], xLabel, yLabel; xTicks, yTicks where round numbers do not do
   constructor(options) {
     Object.assign(this, options);
-    const ticks = niceTicks(this.y, Math.max(4, Math.round(this.height / 70)));
-    const digits = Math.max(...ticks.map((t) => t.text.length));
+    const ticks = options.yTicks || niceTicks(this.y, Math.max(4, Math.round(this.height / 70)));
+    const digits = Math.max(1, ...ticks.map((t) => t.text.length));
     this.yTicks = ticks;
     this.left = 30 + 7 * digits;
     this.right = this.width - 14;
@@ -111,7 +111,7 @@ class Plot {
     let svg = "";
     const css = (tick) => (tick.value === 0 ? "zero" : "grid");
     const area = {left: px(this.left), right: px(this.right), top: px(this.top), bottom: px(this.bottom)};
-    for (const tick of niceTicks(this.x, Math.max(4, Math.round((this.right - this.left) / 70)))) {
+    for (const tick of this.xTicks || niceTicks(this.x, Math.max(4, Math.round((this.right - this.left) / 70)))) {
       const x = px(this.px(tick.value));
       svg += `<line class="${css(tick)}" x1="${x}" x2="${x}" y1="${area.top}" y2="${area.bottom}"/>`;
       svg += `<text text-anchor="middle" x="${x}" y="${px(this.bottom + 16)}">${tick.text}</text>`;

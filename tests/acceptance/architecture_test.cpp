@@ -26,10 +26,12 @@ const std::map<std::string, Names> kArrows = {
     {"effects", {"sim", "odometry", "core"}},
     {"umbmark", {"recording", "odometry", "core"}},
     {"calibration", {"umbmark", "recording", "odometry", "core"}},
-    {"gap", {"calibration", "recording", "odometry", "effects", "core"}},
-    {"experiment", {"effects", "calibration", "umbmark", "recording", "odometry", "sim", "core"}},
+    {"batch", {"core"}},
+    {"gap", {"calibration", "recording", "odometry", "effects", "batch", "core"}},
+    {"experiment", {"batch", "effects", "calibration", "umbmark", "recording", "odometry", "sim", "core"}},
     {"cli",
-     {"experiment", "gap", "calibration", "report", "umbmark", "effects", "recording", "odometry", "sim", "core"}},
+     {"experiment", "gap", "calibration", "report", "umbmark", "effects", "recording", "odometry", "sim", "batch",
+      "core"}},
 };
 /// Of effects/, gap/ may see the table only.
 const Names kGapSeesOfEffects = {"effects/catalogue.h"};
@@ -39,7 +41,7 @@ const Names kSeesBullet = {"sim", "tests/sim", "bench"};
 
 const Names kTopLevel = {"README.md", "CHANGELOG.md", "umbsim",      "test",   "CMakeLists.txt", "CMakePresets.json",
                          "scenarios", "robots",       "core",        "sim",    "odometry",       "effects",
-                         "umbmark",   "recording",    "calibration", "gap",    "experiment",     "report",
+                         "umbmark",   "recording",    "calibration", "gap",    "experiment",     "report", "batch",
                          "cli",       "tests",        "bench",       "docs",   "cmake",          "results",
                          "slurm",     "LICENSE",      "CONTRIBUTING.md",       "CMakeUserPresets.json"};
 const Names kMustStand = {"README.md", "CHANGELOG.md", "umbsim", "test", "CMakeLists.txt", "CMakePresets.json"};

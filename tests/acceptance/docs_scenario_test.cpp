@@ -1,5 +1,6 @@
 // docs/scenario.md says what read_scenario does.
 #include "experiment/scenario.h"
+#include "experiment/sweep.h"
 #include "tests/acceptance/markdown.h"
 #include "tests/acceptance/program.h"
 
@@ -73,7 +74,9 @@ TEST(ShippedScenarios, AreReadAndSayWhatTheyAre) {
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(UMBSIM_SOURCE_DIR) / "scenarios")) {
     if (entry.is_directory()) continue;
     SCOPED_TRACE(entry.path().string());
-    EXPECT_FALSE(read_scenario(entry.path().string()).description.empty());
+    const bool is_sweep = entry.path().parent_path().filename() == "sweeps";
+    const std::string file = entry.path().string();
+    EXPECT_FALSE((is_sweep ? read_sweep(file).description : read_scenario(file).description).empty());
     EXPECT_EQ(text_of(entry.path()).rfind("# ", 0), 0u) << "begins with a comment";
   }
 }
