@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "experiment/cable_layer.h"
+
 namespace umbsim {
 namespace {
 
@@ -102,11 +104,19 @@ std::string recovery_table(const ExperimentResult& r) {
 }
 
 std::string cables_line(const ExperimentResult& r) {
-  if (r.cables_not_crossed == 0) return "";
-  return fmt::format(
-      "  Warning: the wheel did not get over {} of the laid cables of {} mm: too little friction. Its slip, not the "
-      "cable, turned the robot.\n",
-      r.cables_not_crossed, mm(r.scenario.bumps.laid.height_m));
+  std::string text;
+  const LaidBumps& laid = r.scenario.bumps.laid;
+  if (r.cables.not_crossed > 0) {
+    text += fmt::format("  Warning: the wheel did not get over {} of the laid cables of {} mm: too little friction.\n",
+                        r.cables.not_crossed, mm(laid.height_m));
+  }
+  if (r.cables.without_grip > 0) {
+    text += fmt::format("  Warning: the wheel cannot climb {} of the laid cables on its own traction: friction is below tan "
+                        "psi = {:.2f}. Its slip, not the cable, turned the robot.\n",
+                        r.cables.without_grip,
+                        climbing_friction(r.nominal.wheels[0].radius_m, laid.height_m));
+  }
+  return text;
 }
 
 }  // namespace

@@ -44,6 +44,8 @@ class StrictEvents : public YAML::EventHandler {
   void OnMapEnd() override { close(); }
 
   int documents() const { return documents_; }
+  /// A map or list stands where a key belongs. Without its closing bracket yaml-cpp takes it for one before it complains.
+  bool odd_key() const { return odd_key_; }
 
  private:
   struct Level {
@@ -65,7 +67,8 @@ class StrictEvents : public YAML::EventHandler {
   }
 
   void open(const YAML::Mark& mark, bool is_map) {
-    if (expects_key()) fail(mark, "a key must be text, not a map or a list");
+    odd_key_ = expects_key();
+    if (odd_key_) fail(mark, "a key must be text, not a map or a list");
     if (open_.size() >= std::size_t(kMaxYamlDepth)) {
       fail(mark, fmt::format("maps and lists are nested deeper than {} levels", kMaxYamlDepth));
     }
@@ -99,6 +102,27 @@ class StrictEvents : public YAML::EventHandler {
   std::string file_;
   std::vector<Level> open_;
   int documents_ = 0;
+  bool odd_key_ = false;
+};
+
+/// Follows the parser's events and refuses nothing but what is nested too deeply to be read.
+class AnyEvents : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override { open(); }
+  void OnSequenceEnd() override { --depth_; }
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override { open(); }
+  void OnMapEnd() override { --depth_; }
+
+ private:
+  void open() {
+    if (++depth_ > kMaxYamlDepth) throw InputError("nested too deeply");
+  }
+  int depth_ = 0;
 };
 
 // yaml-cpp takes byte 4 for the end of the file and would drop the rest of the document without a word.
@@ -114,12 +138,8 @@ void check_characters(const std::string& text, const std::string& file) {
   }
 }
 
-}  // namespace
-
-void check_yaml(const std::string& text, const std::string& file) {
-  check_characters(text, file);
+void parse_all(const std::string& text, const std::string& file, YAML::EventHandler& events) {
   std::istringstream stream(text);
-  StrictEvents events(file);
   try {
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(events)) {
@@ -127,6 +147,20 @@ void check_yaml(const std::string& text, const std::string& file) {
   } catch (const YAML::Exception& error) {
     const SourceMark mark{file, error.mark.line + 1, error.mark.column + 1};
     throw InputError(mark, "not valid YAML: " + error.msg);
+  }
+}
+
+}  // namespace
+
+void check_yaml(const std::string& text, const std::string& file) {
+  check_characters(text, file);
+  StrictEvents events(file);
+  try {
+    parse_all(text, file, events);
+  } catch (const InputError&) {
+    AnyEvents any;
+    if (events.odd_key()) parse_all(text, file, any);
+    throw;
   }
   if (events.documents() == 0) throw InputError(SourceMark{file, 1, 1}, "the file is empty");
 }

@@ -17,6 +17,11 @@ int bumped_wheel(BumpWheel wheel, Direction direction) {
 
 }  // namespace
 
+double climbing_friction(double wheel_radius_m, double cable_height_m) {
+  const double R = wheel_radius_m, r = cable_height_m / 2;
+  return 2 * std::sqrt(R * r) / (R - r);
+}
+
 CableLayer::CableLayer(const Scenario& scenario, const RunSpec& spec, const Plan& plan)
     : bumps_(scenario.bumps.laid), wheel_(bumped_wheel(bumps_.wheel, spec.direction)) {
   if (!spec.bumped) return;
@@ -35,17 +40,22 @@ void CableLayer::lay_if_due(const Pose2& X_SB, int segment, World& world, const 
   ++laid_;
   last_ = ahead_of_wheel(world, rig);
   world.lay_cable(*last_);
+  count_.without_grip += friction_at(rig.floor, last_->x_m, last_->y_m) <
+                         climbing_friction(rig.robot.wheels[wheel_].radius_m, last_->height_m);
   record.bumps.push_back({last_->x_m, last_->y_m, last_->height_m});
 }
 
-// Passed: the wheel's centre is beyond the cable's middle. The cable lies across, to the left of the way it was laid.
+// Passed: the wheel's centre is beyond the cable's axis, and was above the cable, not beside its end, when it came there.
+// The cable lies across, to the left of the way it was laid.
 void CableLayer::watch(const World& world, bool last_chance) {
   if (!last_) return;
   const Eigen::Vector3d wheel = world.wheel_centre(wheel_);
-  const double beyond_m = (wheel.x() - last_->x_m) * std::sin(last_->direction_rad) -
-                          (wheel.y() - last_->y_m) * std::cos(last_->direction_rad);
-  if (beyond_m <= 0 && !last_chance) return;
-  not_crossed_ += beyond_m <= 0;
+  const double x_m = wheel.x() - last_->x_m, y_m = wheel.y() - last_->y_m;
+  const double cosine = std::cos(last_->direction_rad), sine = std::sin(last_->direction_rad);
+  const bool beyond = x_m * sine - y_m * cosine > 0;
+  const bool above = std::abs(x_m * cosine + y_m * sine) <= last_->length_m / 2;
+  if (!beyond && !last_chance) return;
+  count_.not_crossed += !(beyond && above);
   last_.reset();
 }
 

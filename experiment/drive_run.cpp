@@ -141,7 +141,7 @@ DrivenRun drive_run(const Scenario& scenario, const RobotModel& nominal, const O
     world.command(command.left_radps, command.right_radps);
     world.advance(period_s);
   }
-  return {std::move(recorder.run), std::move(track.track), world.cost(), cables.not_crossed()};
+  return {std::move(recorder.run), std::move(track.track), world.cost(), cables.count()};
 }
 
 }  // namespace umbsim

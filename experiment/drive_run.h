@@ -14,12 +14,18 @@ struct RunSpec {
   int number = 0;  ///< of all runs of the experiment: selects its random streams
 };
 
+/// What went wrong with laid cables.
+struct CableCount {
+  int not_crossed = 0;   ///< the wheel did not get over them
+  int without_grip = 0;  ///< friction below tan psi: the wheel cannot climb them on its own traction, only be pushed over
+};
+
 /// What a run left behind, and what it cost.
 struct DrivenRun {
   RecordedRun run;
   PoseTrack track;
   PhysicsCost cost;
-  int cables_not_crossed = 0;  ///< of those laid
+  CableCount cables;
 };
 
 /// The robot as it really is in this run: the nominal one with the scenario's effects and the run's noise.

@@ -7,8 +7,10 @@
 namespace umbsim {
 namespace {
 
-// At most this many poses of a run go into the page.
-constexpr std::size_t kPagePoses = 400;
+// At most this many poses of a run go into the page, and of all runs together about so many.
+constexpr std::size_t kRunPoses = 400;
+constexpr std::size_t kPagePoses = 24000;
+constexpr std::size_t kFewestRunPoses = 40;
 // About as many ellipses of a run.
 constexpr std::size_t kPageEllipses = 20;
 
@@ -17,10 +19,10 @@ double rounded(double value) { return std::round(value * 1e6) / 1e6; }
 Json path_json(const Pose2& p) { return Json::array({rounded(p.x_m), rounded(p.y_m), rounded(p.theta_rad)}); }
 
 // Truth and odometry at the same moments, in the floor frame.
-void add_paths(Json& json, const RecordedRun& run, const OdometryParameters& odometry) {
+void add_paths(Json& json, const RecordedRun& run, const OdometryParameters& odometry, std::size_t most_poses) {
   json["truth"] = Json::array();
   json["odometry"] = Json::array();
-  const std::size_t stride = 1 + run.truth.size() / kPagePoses;
+  const std::size_t stride = 1 + run.truth.size() / most_poses;
   DeadReckoning reckoning(odometry, run.truth.front().X_WB, run.encoders.front().left_ticks,
                           run.encoders.front().right_ticks);
   std::size_t e = 0;
@@ -36,9 +38,9 @@ void add_paths(Json& json, const RecordedRun& run, const OdometryParameters& odo
 
 // 95 % ellipses along the way, [x, y, semi-axis a, b, angle of a, index of the pose in the path], in the floor frame,
 // and the poses at which an absolute fix was taken.
-void add_ellipses(Json& json, const RecordedRun& run, const PoseTrack& track) {
+void add_ellipses(Json& json, const RecordedRun& run, const PoseTrack& track, std::size_t most_poses) {
   const Pose2& X_WO = run.truth.front().X_WB;
-  const std::size_t stride = 1 + track.samples.size() / kPagePoses, poses = json["odometry"].size();
+  const std::size_t stride = 1 + track.samples.size() / most_poses, poses = json["odometry"].size();
   const std::size_t between = std::max<std::size_t>(1, poses / kPageEllipses);
   json["ellipses"] = Json::array();
   for (std::size_t i = 0; i < poses; ++i) {
@@ -58,6 +60,8 @@ void add_ellipses(Json& json, const RecordedRun& run, const PoseTrack& track) {
 
 void add_runs(Json& json, const Recording& recording, const OdometryParameters& odometry,
               const std::vector<PoseTrack>& tracks, const char* stage) {
+  const std::size_t most_poses =
+      std::clamp<std::size_t>(kPagePoses / std::max<std::size_t>(1, recording.runs.size()), kFewestRunPoses, kRunPoses);
   for (std::size_t i = 0; i < recording.runs.size(); ++i) {
     const RecordedRun& run = recording.runs[i];
     const bool bumped = !run.bumps.empty() || run.inner_wheel_bumps;
@@ -66,8 +70,8 @@ void add_runs(Json& json, const Recording& recording, const OdometryParameters& 
               {"direction", run.direction},
               {"stage", bumped ? "bumped" : stage},
               {"error", {{"x_m", e.x_m}, {"y_m", e.y_m}, {"theta_rad", e.theta_rad}}}};
-    add_paths(item, run, odometry);
-    if (!tracks[i].samples.empty()) add_ellipses(item, run, tracks[i]);
+    add_paths(item, run, odometry, most_poses);
+    if (!tracks[i].samples.empty()) add_ellipses(item, run, tracks[i], most_poses);
     json["runs"].push_back(std::move(item));
     for (const RecordedBump& b : run.bumps) {
       json["bumps"].push_back({{"run", run.id}, {"x_m", b.x_m}, {"y_m", b.y_m}, {"height_m", b.height_m}});

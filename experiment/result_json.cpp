@@ -172,7 +172,8 @@ Json summary_json(const ExperimentResult& r) {
                         {"per_bump_heading_error_rad", e.per_bump_heading_error_rad},
                         {"cw_mean_abs_heading_error_rad", e.cw_mean_abs_heading_error_rad},
                         {"ccw_mean_abs_heading_error_rad", e.ccw_mean_abs_heading_error_rad},
-                        {"cables_not_crossed", r.cables_not_crossed},
+                        {"cables_not_crossed", r.cables.not_crossed},
+                        {"cables_without_grip", r.cables.without_grip},
                         {"cw", cluster_json(e.cw)},
                         {"ccw", cluster_json(e.ccw)}};
   }

@@ -39,7 +39,8 @@ void drive_all(ExperimentResult& result, const OdometryParameters& odometry, con
     result.cost.newton_steps += d.cost.newton_steps;
     result.cost.solver_fallbacks += d.cost.solver_fallbacks;
     result.cost.simulated_s += d.cost.simulated_s;
-    result.cables_not_crossed += d.cables_not_crossed;
+    result.cables.not_crossed += d.cables.not_crossed;
+    result.cables.without_grip += d.cables.without_grip;
     recording.runs.push_back(std::move(d.run));
     tracks.push_back(std::move(d.track));
   }

@@ -38,7 +38,7 @@ struct ExperimentResult {
   std::optional<ExtendedUmbmark> extended;
   InjectedErrors injected;
   std::vector<CalibrationPass> passes;
-  int cables_not_crossed = 0;          ///< laid cables that the wheel did not get over
+  CableCount cables;                   ///< of all runs
   PhysicsCost cost;
   double wall_s = 0;
 };

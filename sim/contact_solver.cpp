@@ -24,23 +24,30 @@ constexpr int kUsualRows = 7;  // two wheels with friction, a ball without
 template <int N>
 void solve_spd(const ContactProblem& p, RowVector& x) {
   const int n = N == Eigen::Dynamic ? int(p.b.size()) : N;
-  double L[kMaxRows][kMaxRows];
-  double y[kMaxRows];
+  constexpr int kStride = N == Eigen::Dynamic ? kMaxRows : N;
+  const double* A = p.A.data();
+  double L[kStride * kStride];  // its diagonal holds 1 / L_ii
+  double y[kStride];
   for (int i = 0; i < n; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      double sum = p.A(i, j);
-      for (int k = 0; k < j; ++k) sum -= L[i][k] * L[j][k];
-      L[i][j] = i == j ? 1 / std::sqrt(sum) : sum * L[j][j];  // the diagonal holds 1 / L_ii
+    double* Li = L + i * kStride;
+    double rest = -p.b[i];
+    for (int j = 0; j < i; ++j) {
+      const double* Lj = L + j * kStride;
+      double sum = A[i * n + j];
+      for (int k = 0; k < j; ++k) sum -= Li[k] * Lj[k];
+      Li[j] = sum * Lj[j];
+      rest -= Li[j] * y[j];
     }
-    double sum = -p.b[i];
-    for (int k = 0; k < i; ++k) sum -= L[i][k] * y[k];
-    y[i] = sum * L[i][i];
+    double square = A[i * n + i];
+    for (int k = 0; k < i; ++k) square -= Li[k] * Li[k];
+    Li[i] = 1 / std::sqrt(square);
+    y[i] = rest * Li[i];
   }
   x.resize(n);
   for (int i = n - 1; i >= 0; --i) {
     double sum = y[i];
-    for (int k = i + 1; k < n; ++k) sum -= L[k][i] * x[k];
-    x[i] = sum * L[i][i];
+    for (int k = i + 1; k < n; ++k) sum -= L[k * kStride + i] * x[k];
+    x[i] = sum * L[i * kStride + i];
   }
 }
 

@@ -242,9 +242,8 @@ void MultiBody::integrate(double step_s) {
   for (int j = 0; j < int(joints_.size()); ++j) angle_rad_[j] += step_s * u_[6 + j];
 }
 
-Joint MultiBody::current(int joint) const {
-  Joint j = joints_[joint];
-  if (j.parent < 0) return j;
+// A caster's wheel, carried round by its fork.
+Joint MultiBody::swung(Joint j) const {
   const Joint& fork = joints_[j.parent];
   const Matrix3d swing = Eigen::AngleAxisd(joint_angle(j.parent), fork.axis).toRotationMatrix();
   j.pivot_m = fork.pivot_m + swing * (j.pivot_m - fork.pivot_m);
@@ -256,9 +255,10 @@ void MultiBody::jacobian(int joint, const Vector3d& point_m, const Vector3d& dir
   row.setZero(dofs());
   row.head<3>() = (point_m - com_B_).cross(direction);
   row.segment<3>(3) = direction;
+  const auto turn = [&](int j, const Joint& at) { row[6 + j] = at.axis.cross(point_m - at.pivot_m).dot(direction); };
   for (int j = joint; j >= 0; j = joints_[j].parent) {
-    const Joint at = current(j);
-    row[6 + j] = at.axis.cross(point_m - at.pivot_m).dot(direction);
+    if (joints_[j].parent < 0) turn(j, joints_[j]);
+    else turn(j, current(j));
   }
 }
 

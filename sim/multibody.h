@@ -76,11 +76,12 @@ class MultiBody {
   void jacobian(int joint, const Eigen::Vector3d& point_m, const Eigen::Vector3d& direction, DofVector& row) const;
 
   /// Current pivot and axis of a joint in the base frame.
-  Joint current(int joint) const;
+  Joint current(int joint) const { return joints_[joint].parent < 0 ? joints_[joint] : swung(joints_[joint]); }
   double energy();
 
  private:
   struct Part;
+  Joint swung(Joint joint) const;
   int add_part(const Part& part, int parent, const Joint& hinge);
   void build_wheels(const RobotModel& robot);
   void build_casters(const RobotModel& robot);

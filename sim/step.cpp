@@ -13,6 +13,10 @@ namespace {
 constexpr int kBase = 6;
 constexpr int kBaseAndWheels = 8;
 
+// Share of the caster wheel's rolling rate below which the friction of its swivel bearing fades: a shaken bearing
+// creeps (docs/contact.md).
+constexpr double kSwivelFade = 0.05;
+
 }  // namespace
 
 void World::State::step(double step_s, const std::array<double, 2>& target_radps) {
@@ -43,13 +47,14 @@ bool World::State::step_with_holding_motors(double step_s, const std::array<doub
   assemble<kBase>(held->inverse_mass.data(), kBase, kBaseAndWheels);
   solve();
 
-  Eigen::Vector2d impulse = held->inertia * change;
-  for (int i = 0; i < rows; ++i) impulse -= held->gain.transpose().lazyProduct(row[i]) * impulses[i];
+  Eigen::Matrix<double, kBaseAndWheels, 1> push = Eigen::Matrix<double, kBaseAndWheels, 1>::Zero();  // J^T x
+  for (int i = 0; i < rows; ++i) push += row[i].head<kBaseAndWheels>() * impulses[i];
+  const Eigen::Vector2d impulse = held->inertia * change - held->gain.transpose().lazyProduct(push);
   for (int i = 0; i < 2; ++i) {
     if (std::abs(impulse[i]) > motor[i].torque_limit_nm * step_s) return false;
   }
-  for (int i = 0; i < rows; ++i) v.head<kBase>() += response[i].head<kBase>() * impulses[i];
   u = v;
+  u.head<kBase>() += held->inverse_mass.topLeftCorner<kBase, kBase>().lazyProduct(push.head<kBase>());
   return true;
 }
 
@@ -76,14 +81,16 @@ void World::State::add_motor(int wheel, double target_radps, double step_s, cons
   ++rows;
 }
 
+// Dry friction, at most M; swivelling at less than kSwivelFade of the rolling rate it is in proportion to the rate, hence
+// a compliance kSwivelFade * rate / M of the row.
 void World::State::add_swivel_friction(double step_s, const DofVector& u) {
   for (std::size_t i = 0; i < robot.casters.size(); ++i) {
     const Caster& c = robot.casters[i];
     if (!c.swivels || c.swivel_friction_nm == 0 || problem.motors == 8) continue;
-    const int fork = body.joints()[body.caster_wheel_joint(int(i))].parent;
+    const int wheel = body.caster_wheel_joint(int(i)), fork = body.joints()[wheel].parent;
     problem.motor[problem.motors++] = {rows, c.swivel_friction_nm * step_s};
     row[rows] = DofVector::Unit(body.dofs(), 6 + fork);
-    compliance[rows] = 0;
+    compliance[rows] = kSwivelFade * std::abs(body.velocity()[6 + wheel]) / (c.swivel_friction_nm * step_s);
     problem.b[rows] = u[6 + fork];
     ++rows;
   }
@@ -144,11 +151,13 @@ void World::State::assemble(const double* M_inverse, int dofs, int stride) {
   const auto at = [dofs](DofVector& v) { return Eigen::Map<Vector>(v.data(), dofs); };
   const Eigen::Map<const Matrix, 0, Eigen::OuterStride<>> M(M_inverse, dofs, dofs, Eigen::OuterStride<>(stride));
   problem.A.resize(rows, rows);
+  double* A = problem.A.data();
   for (int i = 0; i < rows; ++i) {
     response[i].resize(body.dofs());
-    at(response[i]).noalias() = M.lazyProduct(at(row[i]));
-    for (int j = 0; j <= i; ++j) problem.A(i, j) = problem.A(j, i) = at(row[j]).dot(at(response[i]));
-    problem.A(i, i) += compliance[i];
+    const Vector answer = M.lazyProduct(at(row[i]));
+    at(response[i]) = answer;
+    for (int j = 0; j <= i; ++j) A[i * rows + j] = A[j * rows + i] = at(row[j]).dot(answer);
+    A[i * rows + i] += compliance[i];
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "core/error.h"
 #include "sim/world_state.h"
@@ -15,6 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double kSettle_s = 0.2;
 constexpr double kNearCable_m = 0.02;
+constexpr double kFastestCommand_radps = 1e6;
 
 std::vector<Support> supports_of(const RobotModel& robot, const MultiBody& body) {
   std::vector<Support> supports;
@@ -52,13 +54,13 @@ double World::State::rolling_radius(const Support& s) const {
   return s.wheel < 0 ? s.radius_m : radius_factor[s.wheel] * loaded_radius(s);
 }
 
-// Base frame. An eccentric wheel carries its rim's centre round its axle.
-Vector3d World::State::rim_centre(const Support& s, const Joint& hinge) const {
+// Base frame, `ahead_rad` of rolling from now. An eccentric wheel carries its rim's centre round its axle.
+Vector3d World::State::rim_centre(const Support& s, const Joint& hinge, double ahead_rad) const {
   if (s.wheel < 0 || robot.wheels[s.wheel].eccentricity_m == 0) return hinge.pivot_m;
   const Wheel& w = robot.wheels[s.wheel];
   const Vector3d forward = hinge.axis.cross(Vector3d::UnitZ()).normalized();
-  return hinge.pivot_m +
-         w.eccentricity_m * (Eigen::AngleAxisd(body.joint_angle(s.joint) + w.eccentricity_rad, hinge.axis) * forward);
+  const double angle_rad = body.joint_angle(s.joint) + w.eccentricity_rad + ahead_rad;
+  return hinge.pivot_m + w.eccentricity_m * (Eigen::AngleAxisd(angle_rad, hinge.axis) * forward);
 }
 
 RollingShape World::State::shape(const Support& s) const {
@@ -125,7 +127,15 @@ void World::place(const Pose2& X_WB) {
   s.cost = {};
 }
 
-void World::command(double left_radps, double right_radps) { state_->command_radps = {left_radps, right_radps}; }
+void World::command(double left_radps, double right_radps) {
+  for (const double radps : {left_radps, right_radps}) {
+    if (std::abs(radps) <= kFastestCommand_radps) continue;
+    throw InputError(fmt::format("{}: a wheel is commanded to turn at {:g} rad/s (must be >= {:g} and <= {:g}); this comes "
+                                 "from the speeds of the course and from the radii and wheelbase of the odometry",
+                                 state_->robot.urdf, radps, -kFastestCommand_radps, kFastestCommand_radps));
+  }
+  state_->command_radps = {left_radps, right_radps};
+}
 
 void World::advance(double duration_s) {
   State& s = *state_;

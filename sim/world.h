@@ -57,7 +57,7 @@ class World {
   /// braked. Throws InputError if a wheel or caster then carries no load: such a robot does not stand.
   void place(const Pose2& X_WB);
 
-  /// Wheel speeds that the motors shall have reached at the end of the next `advance`, forward positive.
+  /// Wheel speeds at the end of the next `advance`, forward positive. Throws InputError beyond 1e6 rad/s either way.
   void command(double left_radps, double right_radps);
 
   /// Simulates `duration_s`. Throws RunError if the state becomes non-finite.

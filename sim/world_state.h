@@ -69,7 +69,7 @@ struct World::State {
   State(const RobotModel& r, const Drivetrain& d, const Floor& f, const PhysicsOptions& o, const std::vector<Push>& p);
 
   RollingShape shape(const Support& s) const;
-  Eigen::Vector3d rim_centre(const Support& s, const Joint& hinge) const;
+  Eigen::Vector3d rim_centre(const Support& s, const Joint& hinge, double ahead_rad = 0) const;
   double loaded_radius(const Support& s) const;
   double rolling_radius(const Support& s) const;
   double load(const Support& s) const;

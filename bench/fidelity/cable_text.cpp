@@ -28,11 +28,13 @@ The closed form is a limit, and two things lead away from it:
   heading loses 1.5 s / h: at the default 0.12 mm, 1.8 % at 10 mm, 3 % at 6 mm and 4.5 % at 4 mm. This is the tread's, and
   is meant.
 - **Speed.** A wheel that meets the cable at speed v takes a blow. Near tan ψ it slips on the climb and the heading error
-  grows; with momentum it can even get over a cable that it could not climb slowly, slipping. Within some 5 % below tan ψ even 0.02 m/s is momentum enough.
+  grows; momentum and the other wheel can even push it over a cable that it could not climb slowly, slipping. Within some
+  5 % below tan ψ even 0.02 m/s is momentum enough.
 
 In the *rigid limit* supports sink by h / 100, the robot crosses at 0.02 m/s and the steps are 0.1 ms. What is left
 there is the sink's 1.5 %. "Cannot climb": the wheel has not passed the cable. "Slips over": it has, with friction below
-tan ψ. `umbsim run` counts cables that a wheel did not pass, as `cables_not_crossed`.
+tan ψ. `umbsim run` warns of both, and counts cables that a wheel did not pass as `cables_not_crossed`, and those with
+friction below tan ψ as `cables_without_grip`.
 
 Heading error as a ratio to Δθ, left wheel:
 

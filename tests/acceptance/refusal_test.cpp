@@ -115,7 +115,8 @@ const BadSetting kBadSettings[] = {
     {"EmptyPart", "course..side_m=2", {"--set course..side_m=2", "empty part"}},
     {"IntoAScalar", "seed.x=2", {"--set seed.x=2", "'seed' is not a map"}},
     {"DuplicateKey", "course={side_m: 1, side_m: 2}", {"--set course=", "side_m", "duplicate key"}},
-    {"NotYaml", "course=[1", {"--set course=[1"}},
+    {"NotYaml", "course=[1", {"--set course=[1", "not valid YAML"}},
+    {"WheelTooFast", "odometry.left_radius_m=1e-160", {"labmate.urdf", "rad/s", "must be >= -1e+06 and <= 1e+06"}},
     {"WrongType", "course=3", {"course", "expected a map", "'3'"}},
 };
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
+#include <string>
 
 #include "effects/contact.h"
 #include "tests/effects/trial_drive.h"
@@ -62,51 +63,115 @@ TEST(CasterSwivel, FollowsItsTrail) {
   }
 }
 
-// The planar law knows no inertia and no finite step: slowly.
-constexpr double kSlow_mps = 0.02, kModel = 0.015;
+// The planar law knows no inertia and no finite step: slowly, and in short steps.
+constexpr double kSlow_mps = 0.02, kModel = 0.01;
 
-// Heading error against distance on a leg that begins with the swivel angle a. Side force F = M / L (less where the
-// friction fades) at the caster, moment (x cos a - L) F about the axle's middle, balanced by creeping tyres.
+PhysicsOptions short_steps() {
+  PhysicsOptions options;
+  options.step_s = 0.002;
+  return options;
+}
+
+// Heading per metre at the swivel angle a. The floor pushes the caster across its fork with F = M / L (less where the
+// friction fades): moment (x cos a - L) F about the axle's middle, drag F sin a. Creeping wheels balance both; the caster's
+// place, L sin a off the middle, makes their loads unequal.
+double kick_rate(const RobotModel& robot, double a) {
+  const double swivel_per_roll = robot.casters[0].radius_m / kTrail_m * std::abs(std::tan(a));
+  const double force_n = std::copysign(std::min(1.0, swivel_per_roll / kFade), a) * kFriction_nm / kTrail_m;
+  const double wheels_n = robot.total_mass_kg() * kG - caster_load(robot, a);
+  const double on_frame_n = caster_load(robot, a) - robot.casters[0].wheel_mass_kg * kG;
+  const double sideways_n = on_frame_n * kTrail_m * std::sin(a) / kWheelbase_m;
+  const double left_n = wheels_n / 2 + sideways_n, right_n = wheels_n / 2 - sideways_n;
+  const double half_drag_n = force_n * std::sin(a) / 2;
+  const double couple_n = force_n * (kSwivel_m * std::cos(a) - kTrail_m) / kWheelbase_m;
+  return kCreep / kWheelbase_m * ((half_drag_n + couple_n) / left_n - (half_drag_n - couple_n) / right_n);
+}
+
+// Heading error after `distance_m` of a leg that begins with the swivel angle a. The kick itself swings the caster, too.
 double kick(const RobotModel& robot, double a, double distance_m) {
   constexpr int kSteps = 5000;
-  double heading = 0;
   const double h = distance_m / kSteps;
+  const auto swing = [&](double at) {
+    return (kick_rate(robot, at) * (kSwivel_m * std::cos(at) - kTrail_m) - std::sin(at)) / kTrail_m;
+  };
+  double heading = 0;
   for (int i = 0; i < kSteps; ++i) {
-    const double at = rolled(a, h / 2);
-    a = rolled(a, h);
-    const double swivel_per_roll = robot.casters[0].radius_m / kTrail_m * std::abs(std::tan(at));
-    const double force_n = std::copysign(std::min(1.0, swivel_per_roll / kFade), at) * kFriction_nm / kTrail_m;
-    const double wheels_n = robot.total_mass_kg() * kG - caster_load(robot, at);
-    heading += h * 4 * kCreep * force_n * (kSwivel_m * std::cos(at) - kTrail_m) /
-               (wheels_n * kWheelbase_m * kWheelbase_m);
+    const double middle = a + swing(a) * h / 2;
+    heading += h * kick_rate(robot, middle);
+    a += h * swing(middle);
   }
   return heading;
 }
 
 struct Kick {
-  double first_leg = 0;
-  double near = 0;  ///< three trail-lengths into the second leg
+  double near = 0;  ///< three trail-lengths into the leg
   double far = 0;   ///< at its end
 };
 
-Kick drive_corner(const Rig& rig, int sense) {
-  TrialDrive drive(rig);
-  drive.leg(0.2, 0, 3);
-  Kick result;
-  result.first_leg = drive.error().theta_rad;
-  drive.leg(0, sense * kTurn_rad / 2, 1);
+constexpr double kNear_m = 3 * kTrail_m, kFar_m = 0.6;
+
+Kick model(const RobotModel& robot, double a) { return {kick(robot, a, kNear_m), kick(robot, a, kFar_m)}; }
+
+Kick drive_leg(TrialDrive& drive) {
   const double before = drive.error().theta_rad, start_m = drive.rolled_m;
+  Kick result;
   drive.ramp(kSlow_mps, 0, 0.4);
-  while (drive.rolled_m - start_m < 3 * kTrail_m) drive.go(kSlow_mps, 0, 0.02);
-  result.near = drive.error().theta_rad - before;
-  drive.go(kSlow_mps, 0, 30);
-  result.far = drive.error().theta_rad - before;
+  const auto go_until = [&](double distance_m) {
+    while (drive.rolled_m - start_m < distance_m) drive.go(kSlow_mps, 0, 0.02);
+    return drive.error().theta_rad - before;
+  };
+  result.near = go_until(kNear_m);
+  result.far = go_until(kFar_m);
   return result;
 }
 
+Kick kick_after_turn(const Rig& rig, int sense) {
+  TrialDrive drive(rig, short_steps());
+  drive.leg(0, sense * kTurn_rad / 2, 1);
+  return drive_leg(drive);
+}
+
+Rig creeping_rig(double initial_angle_rad = 0) {
+  return rig_with(TyreCreep{kCreep, 0}, CasterSwivel{kTrail_m, kFriction_nm, initial_angle_rad});
+}
+
+void expect_kick(const Kick& measured, const Kick& expected, const std::string& what) {
+  std::cout << what << ": " << measured.near << " rad after three trails (" << expected.near << "), " << measured.far
+            << " rad after " << kFar_m << " m (" << expected.far << ")\n";
+  EXPECT_NEAR(measured.near, expected.near, kModel * std::abs(expected.near)) << what;
+  EXPECT_NEAR(measured.far, expected.far, kModel * std::abs(expected.far)) << what;
+}
+
+TEST(CasterSwivel, KicksInTheFirstTrailLengthsWithTheSignOfTheLastTurn) {
+  const Rig rig = creeping_rig();
+  const double a = turned(0, kTurn_rad);
+  const Kick left = kick_after_turn(rig, 1), right = kick_after_turn(rig, -1);
+  expect_kick(left, model(rig.robot, a), "after a turn to the left");
+  expect_kick(right, model(rig.robot, -a), "after a turn to the right");
+  EXPECT_GT(left.far, 0);
+  EXPECT_LT(right.far, 0);
+}
+
+TEST(CasterSwivel, DoesNotKickTheFirstLegWhereItStartsAligned) {
+  constexpr double kNothing = 1e-6;  // of the kick after a turn
+  const Rig rig = creeping_rig();
+  TrialDrive drive(rig);
+  const Kick first = drive_leg(drive);
+  std::cout << "first leg, aligned: " << first.far << " rad\n";
+  EXPECT_LT(std::abs(first.near) + std::abs(first.far), kNothing * std::abs(kick_after_turn(rig, 1).far));
+}
+
+TEST(CasterSwivel, KicksTheFirstLegWhereItStartsAskew) {
+  for (const double a : {0.5, -1.4}) {
+    const Rig rig = creeping_rig(a);
+    TrialDrive drive(rig, short_steps());
+    expect_kick(drive_leg(drive), model(rig.robot, a), "askew by " + std::to_string(a) + " rad");
+  }
+}
+
 TEST(CasterSwivel, WithoutFrictionOrCreepThereIsNoKick) {
-  const auto far = [](const Rig& rig) { return std::abs(drive_corner(rig, 1).far); };
-  const double with = far(rig_with(TyreCreep{kCreep, kCreep}, CasterSwivel{kTrail_m, kFriction_nm, 0}));
+  const auto far = [](const Rig& rig) { return std::abs(kick_after_turn(rig, 1).far); };
+  const double with = far(creeping_rig());
   // What is left: the fork's and wheel's inertia as they swing round.
   const double free = far(rig_with(TyreCreep{kCreep, kCreep}, CasterSwivel{kTrail_m, 0, 0}));
   const double rigid = far(rig_with(CasterSwivel{kTrail_m, kFriction_nm, 0}));

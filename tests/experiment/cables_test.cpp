@@ -64,5 +64,39 @@ TEST(TenCables, OuterWheelTurnsTheOtherWay) {
   EXPECT_NEAR(turned_deg, 0.573, 0.04 * 0.573);  // the bar for one cable is 4 %
 }
 
+std::vector<std::string> three_cables(const std::string& friction, const std::string& speed_mps) {
+  std::vector<std::string> settings = kQuiet;
+  for (const std::string& setting :
+       {std::string("bumps={count: 3}"), std::string("course.side_m=1.5"), "floor.friction=" + friction,
+        "course.linear_speed_mps=" + speed_mps}) {
+    settings.push_back(setting);
+  }
+  return settings;
+}
+
+// tan psi is 0.554 for a 10 mm cable and R 75. Three cables, two directions.
+TEST(TenCables, SaysWhereTheWheelCannotClimb) {
+  constexpr int kLaid = 6;
+  const double closed_form_deg = 0.573;
+  struct Case {
+    const char *friction, *speed_mps;
+    bool grip, over;
+  };
+  for (const Case& c : {Case{"0.9", "0.2", true, true}, Case{"0.56", "0.05", true, true}, Case{"0.54", "0.2", false, true},
+                        Case{"0.3", "0.2", false, true}, Case{"0.3", "0.05", false, false}}) {
+    const ExperimentResult r = run_experiment(shipped("extended_umbmark", three_cables(c.friction, c.speed_mps)), 0);
+    const double each_deg = degrees(r.extended->per_bump_heading_error_rad);
+    std::cout << fmt::format("friction {}, {} m/s: {} not crossed, {} without grip, {:.3f} deg per cable\n", c.friction,
+                             c.speed_mps, r.cables.not_crossed, r.cables.without_grip, each_deg);
+    EXPECT_EQ(r.cables.without_grip, c.grip ? 0 : kLaid) << c.friction;
+    EXPECT_EQ(r.cables.not_crossed == 0, c.over) << c.friction << ", " << c.speed_mps;
+    if (c.grip) {
+      EXPECT_NEAR(each_deg, closed_form_deg, 0.04 * closed_form_deg) << c.friction;
+    } else {
+      EXPECT_GT(each_deg, 1.04 * closed_form_deg) << "momentum and the other wheel push it over, slipping";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace umbsim
