@@ -83,7 +83,7 @@ double number_after(const std::string& text, const char* word) {
 // The C library picks variants of sin and memcpy by processor; without these two features it picks the same anywhere.
 double instructions_per_simulated_s(const Case& c) {
   const std::string text = output_of(fmt::format(
-      "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4 valgrind --tool=callgrind --callgrind-out-file=/dev/null "
+      "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4,-AVX_Fast_Unaligned_Load,-AVX2_Usable,-AVX_Usable valgrind --tool=callgrind --callgrind-out-file=/dev/null "
       "--collect-atstart=no --toggle-collect=umbsim_counted '{}' drive {} 2>&1", own_path(), c.name));
   const double simulated_s = number_after(text, "simulated_s ");
   const double instructions = number_after(text, "Collected : ");

@@ -14,6 +14,11 @@ constexpr double kLeastLoad = 0.02;
 constexpr double kSpinMobility = 1e-6;  // rad/s per N m
 constexpr double kSpeculative_m = 0.001;  // contacts this far ahead are watched, beyond what the step can travel
 
+// row . u, with the size known when compiling where it is the usual one.
+double speed_along(const DofVector& row, const DofVector& u) {
+  return row.size() == 8 ? row.head<8>().dot(u.head<8>()) : row.dot(u);
+}
+
 }  // namespace
 
 void World::State::add_contacts(double step_s, const DofVector& u) {
@@ -59,7 +64,7 @@ void World::State::add_contact(int support, const NearestPoint& nearest, double 
   const double gap_m = nearest.distance_m;
   body.jacobian(s.joint, rim, normal, row[rows]);
   compliance[rows] = soft ? 1 / (step_s * spring) : kMobility / step_s;
-  problem.b[rows] = row[rows].dot(u) + (soft && gap_m < 0 ? gap_m * s.stiffness_npm / spring : gap_m / step_s);
+  problem.b[rows] = speed_along(row[rows], u) + (soft && gap_m < 0 ? gap_m * s.stiffness_npm / spring : gap_m / step_s);
   ++rows;
   if (friction <= 0) return;
   const Vector3d along = axis.cross(normal).normalized();
@@ -71,7 +76,7 @@ void World::State::add_contact(int support, const NearestPoint& nearest, double 
     const Vector3d& direction = i == 0 ? along : across;
     body.jacobian(s.joint, rim, direction, row[rows]);
     compliance[rows] = (kMobility + creep[i]) / step_s;
-    problem.b[rows] = row[rows].dot(u) - surface.dot(direction);
+    problem.b[rows] = speed_along(row[rows], u) - surface.dot(direction);
     ++rows;
   }
 }
@@ -103,7 +108,7 @@ void World::State::add_spin_friction(const DofVector& u, double step_s) {
     // Rolling, the ends of the line creep: moment N w^2 / (12 C) times the curvature, below the limit.
     const double spin = 12 * tyre_slip(s).along / (width_m * width_m);
     compliance[rows] = (kSpinMobility + spin) / step_s;
-    problem.b[rows] = row[rows].dot(u);
+    problem.b[rows] = speed_along(row[rows], u);
     ++rows;
   }
 }

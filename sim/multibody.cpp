@@ -158,7 +158,11 @@ void MultiBody::to_bullet_state() {
 
 DofVector MultiBody::free_velocity(double step_s) {
   if (!constant_mass_) return free_velocity_articulated(step_s);
-  return u_ + step_s * inverse_mass_.lazyProduct(gyroscopic_and_weight());
+  const Eigen::Matrix<double, 6, 1> impulse = step_s * gyroscopic_and_weight();
+  const Eigen::Map<const Eigen::Matrix<double, 8, 8>> M_inverse(inverse_mass_.data());  // symmetric
+  DofVector u(8);
+  u.head<8>() = u_.head<8>() + M_inverse.leftCols<6>().lazyProduct(impulse);
+  return u;
 }
 
 DofVector MultiBody::free_velocity_articulated(double step_s) {
@@ -174,7 +178,7 @@ DofVector MultiBody::free_velocity_articulated(double step_s) {
 
 // Generalised forces at the base's centre of mass, base frame: weight, and the inertia forces of a turning base with
 // spinning wheels, -w x (I w) and -m w x (w x r). A body of revolution feels none about its own axis.
-DofVector MultiBody::gyroscopic_and_weight() const {
+Eigen::Matrix<double, 6, 1> MultiBody::gyroscopic_and_weight() const {
   const Vector3d w = u_.head<3>();
   const Vector3d gravity = R_WB_.transpose() * gravity_mps2_;
   Vector3d torque = -w.cross(robot_.base.inertia_kgm2 * w);
@@ -188,9 +192,8 @@ DofVector MultiBody::gyroscopic_and_weight() const {
     force += pull;
     torque += r.cross(pull) - w.cross(wheel.axis) * spin;
   }
-  DofVector f = DofVector::Zero(dofs());
-  f.head<3>() = torque;
-  f.segment<3>(3) = force;
+  Eigen::Matrix<double, 6, 1> f;
+  f << torque, force;
   return f;
 }
 
@@ -252,9 +255,10 @@ Joint MultiBody::swung(Joint j) const {
 }
 
 void MultiBody::jacobian(int joint, const Vector3d& point_m, const Vector3d& direction, DofVector& row) const {
-  row.setZero(dofs());
+  row.resize(dofs());
   row.head<3>() = (point_m - com_B_).cross(direction);
   row.segment<3>(3) = direction;
+  for (int j = 6; j < dofs(); ++j) row[j] = 0;
   const auto turn = [&](int j, const Joint& at) { row[6 + j] = at.axis.cross(point_m - at.pivot_m).dot(direction); };
   for (int j = joint; j >= 0; j = joints_[j].parent) {
     if (joints_[j].parent < 0) turn(j, joints_[j]);

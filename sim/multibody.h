@@ -88,7 +88,7 @@ class MultiBody {
   void compute_inverse_mass();
   void compute_held_motors();
   void to_bullet_state();
-  DofVector gyroscopic_and_weight() const;
+  Eigen::Matrix<double, 6, 1> gyroscopic_and_weight() const;
 
   std::vector<Joint> joints_;
   std::vector<int> caster_wheel_joint_;

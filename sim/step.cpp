@@ -42,7 +42,8 @@ bool World::State::step_with_holding_motors(double step_s, const std::array<doub
   const auto& motor = drivetrain.motor;
   if (!held || motor[0].backlash_rad > 0 || motor[1].backlash_rad > 0) return false;
   const Eigen::Vector2d change(target_radps[0] - u[6], target_radps[1] - u[7]);
-  DofVector v = u + held->gain.lazyProduct(change);
+  DofVector v(kBaseAndWheels);
+  v.head<kBaseAndWheels>() = u.head<kBaseAndWheels>() + held->gain.lazyProduct(change);
   add_contacts(step_s, v);
   assemble<kBase>(held->inverse_mass.data(), kBase, kBaseAndWheels);
   solve();

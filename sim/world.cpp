@@ -129,7 +129,7 @@ void World::place(const Pose2& X_WB) {
 
 void World::command(double left_radps, double right_radps) {
   for (const double radps : {left_radps, right_radps}) {
-    if (std::abs(radps) <= kFastestCommand_radps) continue;
+    if (!(std::abs(radps) > kFastestCommand_radps)) continue;
     throw InputError(fmt::format("{}: a wheel is commanded to turn at {:g} rad/s (must be >= {:g} and <= {:g}); this comes "
                                  "from the speeds of the course and from the radii and wheelbase of the odometry",
                                  state_->robot.urdf, radps, -kFastestCommand_radps, kFastestCommand_radps));

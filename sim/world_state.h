@@ -52,7 +52,7 @@ struct World::State {
   std::array<double, 2> shaft_rad{};         // motor side of the backlash
   std::array<double, 2> radius_factor{1, 1};  // of rolling, not of the shape
   std::array<double, 2> rest_load_n{};       // that squashes a tyre at rest
-  double time_s = 0;                         // since place
+  double time_s = -1;                        // since place; pushes act from 0 on
   double heading_rad = 0;
 
   // Rows of the current step: each is J_i, with response M^-1 J_i^T, and a compliance on the diagonal (velocity per

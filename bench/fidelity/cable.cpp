@@ -39,6 +39,7 @@ CableOutcome cross(const CableCase& c) {
   out.ratio = out.heading_rad * c.robot.wheelbase_m() / closed_form(radius_m, c.height_m).extra_path_m;
   out.X_WB = world.pose();
   out.solver_fallbacks = world.cost().solver_fallbacks;
+  out.simulated_s = world.cost().simulated_s;
   return out;
 }
 

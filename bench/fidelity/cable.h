@@ -25,6 +25,7 @@ struct CableOutcome {
   double ratio = 0;        ///< to the closed form
   Pose2 X_WB;              ///< at the end
   std::int64_t solver_fallbacks = 0;
+  double simulated_s = 0;
 };
 CableOutcome cross(const CableCase& c);
 

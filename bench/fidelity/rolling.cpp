@@ -32,7 +32,7 @@ zero, so the slip has no part along it, and the robot advances R φ cos δ, stra
 constexpr const char* kEccentricText = R"(**Eccentric wheel.** The left rim's centre is e off the axle, forward at first. The rim's centre advances by R φ, the axle by
 R φ - e (cos φ - 1): the heading is (e / b) (cos φ - 1), a ripple of amplitude e / b at the wheel's frequency, which
 returns to zero after each revolution. The lean of the axle and the robot's turning change this in second order of e.
-1 rad/s, four revolutions; the step's part is of first order.
+1 rad/s, four revolutions; the step's part is of second order.
 
 )";
 

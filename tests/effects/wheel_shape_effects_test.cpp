@@ -17,8 +17,8 @@ using testing::wheel_rad;
 constexpr double kRadius_m = 0.075, kWheelbase_m = 0.340, kSide_m = 4;
 // Toe: terms of the third order in toe, and the slips at the leg's start and stop, relative to the formula.
 constexpr double kBalance = 0.02;
-// Eccentricity, relative to e / b: what is of second order (e / R), and half a step's lag of the rim behind the axle.
-constexpr double kRipple = 0.03, kFineStep = 0.06, kDefaultStep = 0.35;
+// Eccentricity, relative to e / b: what is of second order in e / R and in the step.
+constexpr double kRipple = 0.03, kSecondOrder = 0.06;
 
 struct Toe {
   double left, right, along, across;
@@ -101,7 +101,7 @@ TEST(WheelEccentricity, IsExactKinematicsOfTheRecordedTicks) {
         std::cout << fmt::format(
             "e {}, {} mm, step {} s, {}: off kinematics by {:.4f} mm, {:.4f} mrad; e / b {:.4f} mrad\n", 1e3 * c[0],
             1e3 * c[1], step_s, id, 1e3 * off.metres, 1e3 * off.radians, 1e3 * limit_rad);
-        EXPECT_LT(off.radians, (step_s < 0.01 ? kFineStep : kDefaultStep) * limit_rad);
+        EXPECT_LT(off.radians, kSecondOrder * limit_rad);
         // The axle's middle sways as the robot rolls (R e / b) and pitches (R e / 0.5 m), there and back: 0.8 e at
         // most.
         EXPECT_LT(off.metres, 0.8 * (c[0] + c[1]) + 6 * off.radians);

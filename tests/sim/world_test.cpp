@@ -178,6 +178,15 @@ TEST(World, RobotThatFallsOverIsRefused) {
   expect_refused(robot, "centre of mass beside the left wheel's line to the ball");
 }
 
+TEST(World, RefusesCommandsThatNoWheelFollows) {
+  World world = placed(labmate());
+  EXPECT_NO_THROW(world.command(1e6, -1e6));
+  for (const double radps : {1.001e6, -1e160, std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW(world.command(0, radps), InputError) << radps;
+    EXPECT_THROW(world.command(radps, 0), InputError) << radps;
+  }
+}
+
 TEST(World, NonFiniteStateStopsTheRun) {
   World world = placed(labmate());
   world.command(std::numeric_limits<double>::quiet_NaN(), 0);
@@ -188,10 +197,10 @@ TEST(World, NonFiniteStateStopsTheRun) {
     EXPECT_NE(std::string(e.what()).find("test robot: the state became non-finite after"), std::string::npos)
         << e.what();
   }
-  World absurd = placed(labmate(), {}, {}, 1e300);
-  absurd.command(1e60, -1e60);
+  World pushed(labmate(), {20}, {}, {}, {Push{0, 0.1, 1e300, 0, 0, 0}});
+  pushed.place({});
   const auto run = [&] {
-    for (int i = 0; i < 100; ++i) absurd.advance(0.02);
+    for (int i = 0; i < 100; ++i) pushed.advance(0.02);
   };
   EXPECT_THROW(run(), RunError);
 }
