@@ -24,10 +24,11 @@ std::string cable_geom(const Cable& c) {
 }
 
 std::string wheel_body(const Wheel& w, int i, const MujocoOptions& o) {
-  return fmt::format("<body pos='{} {} {}'><joint name='w{}' type='hinge' axis='0 1 0' damping='{}'/>"
+  const double toe_rad = std::atan2(-w.axis.x(), w.axis.y());
+  return fmt::format("<body pos='{} {} {}' euler='0 0 {}'><joint name='w{}' type='hinge' axis='0 1 0' damping='{}'/>"
                      "<inertial pos='0 0 0' mass='{}' diaginertia='{} {} {}'/>"
                      "<geom {} euler='1.5707963267948966 0 0'/></body>",
-                     w.centre_m.x(), w.centre_m.y(), w.centre_m.z(), i, o.servo == "damping" ? o.servo_gain : 0.0,
+                     w.centre_m.x(), w.centre_m.y(), w.centre_m.z(), toe_rad, i, o.servo == "damping" ? o.servo_gain : 0.0,
                      w.mass_kg, w.transverse_inertia_kgm2, w.spin_inertia_kgm2, w.transverse_inertia_kgm2,
                      wheel_geom(w, o.wheel));
 }

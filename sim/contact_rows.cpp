@@ -82,15 +82,16 @@ void World::State::add_contact(int support, const NearestPoint& nearest, double 
 }
 
 // Creep before sliding is a speed proportional to rolling speed and traction ratio: slip = C v F / N (linear theory,
-// e.g. Johnson, Contact Mechanics, 8.3), hence a compliance C v / N of the friction rows. Carpet moves under a rolling
-// wheel in proportion to the distance rolled.
+// e.g. Johnson, Contact Mechanics, 8.3), hence a compliance C v / N of the friction rows. Carpet carries the robot in
+// proportion to the distance that it rolls.
 TyreSlip World::State::tyre_slip(const Support& s) const {
   if (s.wheel < 0) return {};
   const Wheel& w = robot.wheels[s.wheel];
   const double speed = std::abs(body.velocity()[6 + s.wheel]) * w.radius_m;
+  const double rolled = (std::abs(body.velocity()[6]) + std::abs(body.velocity()[7])) / 2 * w.radius_m;  // by the robot
   const double load_n = std::max(load(s), kLeastLoad * robot.total_mass_kg() * options.gravity_mps2);
   return {w.creep_along * speed / load_n, w.creep_across * speed / load_n,
-          {speed * floor.drift_x, speed * floor.drift_y, 0}};
+          {rolled * floor.drift_x, rolled * floor.drift_y, 0}};
 }
 
 // A contact of width w resists turning on the spot with the moment mu N w / 4 (uniform pressure along a line).
