@@ -44,17 +44,8 @@ std::unique_ptr<Engine> stock(const Setup& s) { return make_stock_bullet(s, {});
 std::unique_ptr<Engine> round_wheels(const Setup& s) { return make_stock_bullet(s, {"sphere", "sequential", 50}); }
 std::unique_ptr<Engine> direct(const Setup& s) { return make_stock_bullet(s, {"sphere", "direct", 10}); }
 
-// The best of umbsim_tune_mujoco for each task: docs/bench.md.
-std::unique_ptr<Engine> mujoco_square(const Setup& s) {
-  MujocoOptions o;
-  o.contact_time_s = 2 * s.step_s;
-  return make_mujoco(s, o);
-}
-std::unique_ptr<Engine> mujoco_cable(const Setup& s) {
-  MujocoOptions o;
-  o.contact_time_s = 2 * s.step_s;
-  return make_mujoco(s, o);
-}
+std::unique_ptr<Engine> mujoco_square(const Setup& s) { return make_mujoco(s, mujoco_for_square(s.step_s)); }
+std::unique_ptr<Engine> mujoco_cable(const Setup& s) { return make_mujoco(s, mujoco_for_cable()); }
 
 const std::vector<Contender>& contenders() {
   static const std::vector<Contender> all{

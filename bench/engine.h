@@ -58,6 +58,10 @@ struct MujocoOptions {
   int noslip_iterations = 0;
 };
 
+/// The best that umbsim_tune_mujoco found for each task: docs/bench.md.
+MujocoOptions mujoco_for_square(double step_s);
+MujocoOptions mujoco_for_cable();
+
 std::unique_ptr<Engine> make_mujoco(const Setup& setup, const MujocoOptions& options);
 
 }  // namespace umbsim::bench

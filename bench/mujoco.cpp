@@ -135,6 +135,23 @@ class Mujoco : public Engine {
 
 }  // namespace
 
+MujocoOptions mujoco_for_square(double step_s) {
+  MujocoOptions o;
+  o.wheel = "sphere";
+  o.impratio = 1e4;
+  o.contact_time_s = 2 * step_s;
+  if (step_s >= 0.02) o.servo_gain = 5;  // 20 is unstable there
+  return o;
+}
+
+MujocoOptions mujoco_for_cable() {
+  MujocoOptions o;
+  o.wheel = "cylinder";
+  o.impratio = 1;
+  o.contact_damping_ratio = 4;
+  return o;
+}
+
 std::unique_ptr<Engine> make_mujoco(const Setup& setup, const MujocoOptions& options) {
   return std::make_unique<Mujoco>(setup, options);
 }

@@ -8,7 +8,7 @@ CASTER, COM, BASE, WHEELS = 0.250, 0.060, 40.0, 2.0
 PIECES = 2000
 
 
-def square(cw, left=lambda w: R * w, right=lambda w: R * w, base=B, step=lambda leg, s: 0.0, carry=lambda m, a: 0.0,
+def square(cw, left=lambda w: R * w, right=lambda w: R * w, base=B, step=lambda leg, s: 0.0, carry=lambda m, a, turning: 0.0,
            leg_turn=0.0, turn_gain=1.0):
     """left, right: true travel of a wheel that has turned by w. step: heading step at a place of a leg. carry: extra
     displacement for m metres rolled at heading a. leg_turn: heading per metre on legs. turn_gain: turned over believed."""
@@ -22,10 +22,15 @@ def square(cw, left=lambda w: R * w, right=lambda w: R * w, base=B, step=lambda 
             for i in range(PIECES):
                 l, r = left(wl + dl / PIECES) - left(wl), right(wr + dr / PIECES) - right(wr)
                 wl, wr = wl + dl / PIECES, wr + dr / PIECES
-                turn = (r - l) / base * (turn_gain if turning else 1) + (0 if turning else leg_turn * (l + r) / 2)
+                turn = (r - l) / base * (turn_gain if turning else 1)
+                if callable(leg_turn):
+                    turn += leg_turn(heading, sense if turning else 0) * (abs(l) + abs(r)) / 2
+                elif not turning:
+                    turn += leg_turn * (l + r) / 2
                 if not turning:
                     turn += step(leg, i * SIDE / PIECES) - step(leg, (i - 1) * SIDE / PIECES)
-                p += (l + r) / 2 * cmath.exp(1j * (heading + turn / 2)) + carry((abs(l) + abs(r)) / 2, heading)
+                p += (l + r) / 2 * cmath.exp(1j * (heading + turn / 2))
+                p += carry((abs(l) + abs(r)) / 2, heading, turning)
                 heading += turn
     return p.real, p.imag, heading + (2 * math.pi if cw else -2 * math.pi)
 
@@ -72,12 +77,39 @@ def toe(tau):
 
 
 def carpet(share, direction):
-    return lambda cw: square(cw, carry=lambda m, a: share * m * cmath.exp(1j * direction))
+    return lambda cw: square(cw, carry=lambda m, a, turning: share * m * cmath.exp(1j * direction))
 
 
 def play(zone):
     """Where stops take the play to its far end; the driver's path is whole again on every leg."""
     return lambda cw: (0.0, 0.0, (-1 if cw else 1) * zone * R / B)
+
+
+CREEP, MU = 0.02, 0.9   # of the scenarios that creep; both wheels' load of the empty robot:
+ON_CASTER = G * BASE * COM / CASTER
+ON_WHEELS = G * (BASE + WHEELS) - ON_CASTER
+
+
+def patch(width):
+    """Each sliding patch resists a turn with mu N w / 4: both wheels slip by C F / N. In curves there is none here."""
+    return lambda cw: square(cw, turn_gain=1 - CREEP * MU * width / (2 * B))
+
+
+def drag(coefficient):
+    """The ball pulls backwards on legs, and against its circle of radius CASTER in turns; sideways slip of a turn is small."""
+    pull = coefficient * ON_CASTER
+    short = CREEP * pull / ON_WHEELS
+    return lambda cw: square(cw, lambda w: R * w, lambda w: R * w, turn_gain=1 - CREEP * pull * CASTER * 2 / (ON_WHEELS * B),
+                             carry=lambda m, a, turning: 0 if turning else -short * m * cmath.exp(1j * a))
+
+
+def slope(angle, downhill):
+    """Weight along the floor: every metre rolled creeps downhill by C F / N, and turns by its moment about the axle, F acting
+    COM ahead of it, shared by two wheels at B / 2 (their loads are taken as equal)."""
+    share = CREEP * math.sin(angle) * G * (BASE + WHEELS) / (ON_WHEELS * math.cos(angle))
+    turn = lambda a, sense: (CREEP * G * BASE * math.sin(angle) * math.sin(downhill - a) * COM * 4 /
+                             (ON_WHEELS * math.cos(angle) * B * B))
+    return lambda cw: square(cw, carry=lambda m, a, turning: share * m * cmath.exp(1j * downhill), leg_turn=turn)
 
 
 NOTHING = lambda cw: (0.0, 0.0, 0.0)
@@ -95,7 +127,10 @@ ORACLES = {
     "encoder_missed_counts": radii(R, R / (1 - 0.002)),
     "encoder_latency": NOTHING,
     "tyre_compliance": compliance(1.5e-6),
+    "contact_patch": patch(0.02),
     "tyre_creep": NOTHING,
+    "caster_drag": drag(0.03),
     "bump": cable(0.006),
+    "floor_slope": slope(0.02, 1),
     "carpet_drift": carpet(0.004, 0.8),
 }

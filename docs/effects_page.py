@@ -27,7 +27,8 @@ TESTED = {
     "tyre_compliance": "statics: the radius under each wheel's load; the same at every step",
     "contact_patch": "resists turning on the spot by mu N w / 4; nothing on a straight leg",
     "tyre_creep": "slip in proportion to traction up to the friction limit, then sliding",
-    "caster_swivel": "follows its trail; kicks in the first trail-lengths; none without friction or creep",
+    "caster_swivel": "follows its trail; kicks in the first trail-lengths with the sign of the last turn, as the plane's equations "
+                     "say; not on a first leg that starts aligned; none without friction or creep",
     "caster_drag": "off the middle, yaw in proportion to distance; in the middle, a shorter leg alone",
     "slippery_floor": "slip begins where demanded traction exceeds friction",
     "slippery_patch": "acts inside the disc and under demand only",
@@ -50,7 +51,7 @@ parameters (`effects: {wheelbase: {relative: 0.01}}`) or onto the command line (
 
 Absolute minus calculated pose at the end of the square, (x, y) in mm and heading in degrees, mean of the scenario's runs;
 beside it the closed form where there is one (docs/effects_oracles.py). Scenarios whose effect acts through slip or drag have
-these too. All effects are mirrored, turned with the start heading, and taken two at a time by tests/effects as well.
+these too, and steps of 1 ms: [physics](physics.md#steps). All effects are mirrored, turned with the start heading, and taken two at a time by tests/effects as well.
 
 | effect | cw | ccw | cw, closed form | ccw, closed form | what the tests hold it to |
 |---|---|---|---|---|---|

@@ -62,7 +62,8 @@ void World::State::add_contact(int support, const NearestPoint& nearest, double 
   const double spring = step_s * s.stiffness_npm + s.damping_nspm;
   const bool soft = s.stiffness_npm > 0;
   const double gap_m = nearest.distance_m;
-  body.jacobian(s.joint, rim, normal, row[rows]);
+  const MultiBody::Lever lever = body.lever(s.joint, rim);
+  body.jacobian(lever, normal, row[rows]);
   compliance[rows] = soft ? 1 / (step_s * spring) : kMobility / step_s;
   problem.b[rows] = speed_along(row[rows], u) + (soft && gap_m < 0 ? gap_m * s.stiffness_npm / spring : gap_m / step_s);
   ++rows;
@@ -74,7 +75,7 @@ void World::State::add_contact(int support, const NearestPoint& nearest, double 
   const Vector3d surface = R_BW * slip.surface_mps;
   for (int i = 0; i < 2; ++i) {
     const Vector3d& direction = i == 0 ? along : across;
-    body.jacobian(s.joint, rim, direction, row[rows]);
+    body.jacobian(lever, direction, row[rows]);
     compliance[rows] = (kMobility + creep[i]) / step_s;
     problem.b[rows] = speed_along(row[rows], u) - surface.dot(direction);
     ++rows;
@@ -87,6 +88,7 @@ void World::State::add_contact(int support, const NearestPoint& nearest, double 
 TyreSlip World::State::tyre_slip(const Support& s) const {
   if (s.wheel < 0) return {};
   const Wheel& w = robot.wheels[s.wheel];
+  if (w.creep_along == 0 && w.creep_across == 0 && floor.drift_x == 0 && floor.drift_y == 0) return {};
   const double speed = std::abs(body.velocity()[6 + s.wheel]) * w.radius_m;
   const double rolled = (std::abs(body.velocity()[6]) + std::abs(body.velocity()[7])) / 2 * w.radius_m;  // by the robot
   const double load_n = std::max(load(s), kLeastLoad * robot.total_mass_kg() * options.gravity_mps2);

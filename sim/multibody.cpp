@@ -254,16 +254,24 @@ Joint MultiBody::swung(Joint j) const {
   return j;
 }
 
-void MultiBody::jacobian(int joint, const Vector3d& point_m, const Vector3d& direction, DofVector& row) const {
+MultiBody::Lever MultiBody::lever(int joint, const Vector3d& point_m) const {
+  Lever l;
+  l.arm_m = point_m - com_B_;
+  for (int j = joint; j >= 0; j = joints_[j].parent) {
+    const auto add = [&](const Joint& at) { l.turn_m[l.joints] = at.axis.cross(point_m - at.pivot_m); };
+    if (joints_[j].parent < 0) add(joints_[j]);
+    else add(current(j));
+    l.joint[l.joints++] = j;
+  }
+  return l;
+}
+
+void MultiBody::jacobian(const Lever& lever, const Vector3d& direction, DofVector& row) const {
   row.resize(dofs());
-  row.head<3>() = (point_m - com_B_).cross(direction);
+  row.head<3>() = lever.arm_m.cross(direction);
   row.segment<3>(3) = direction;
   for (int j = 6; j < dofs(); ++j) row[j] = 0;
-  const auto turn = [&](int j, const Joint& at) { row[6 + j] = at.axis.cross(point_m - at.pivot_m).dot(direction); };
-  for (int j = joint; j >= 0; j = joints_[j].parent) {
-    if (joints_[j].parent < 0) turn(j, joints_[j]);
-    else turn(j, current(j));
-  }
+  for (int i = 0; i < lever.joints; ++i) row[6 + lever.joint[i]] = lever.turn_m[i].dot(direction);
 }
 
 double MultiBody::energy() {

@@ -71,9 +71,22 @@ class MultiBody {
   /// SE(3): arcs come out as arcs). Afterwards the velocity is the same vector in the world, seen from the turned base.
   void integrate(double step_s);
 
+  /// How a material point of the part behind `joint` (-1: the base) moves, base frame: what the Jacobian's rows for all
+  /// directions have in common.
+  struct Lever {
+    Eigen::Vector3d arm_m;      ///< from the base's centre of mass
+    int joints = 0;
+    int joint[2];               ///< that move the point
+    Eigen::Vector3d turn_m[2];  ///< velocity of the point per joint speed
+  };
+  Lever lever(int joint, const Eigen::Vector3d& point_m) const;
+  void jacobian(const Lever& lever, const Eigen::Vector3d& direction, DofVector& row) const;
+
   /// Row of the contact Jacobian: velocity along `direction` of the material point `point_m` of the part behind
   /// `joint` (-1: the base). All in the base frame.
-  void jacobian(int joint, const Eigen::Vector3d& point_m, const Eigen::Vector3d& direction, DofVector& row) const;
+  void jacobian(int joint, const Eigen::Vector3d& point_m, const Eigen::Vector3d& direction, DofVector& row) const {
+    jacobian(lever(joint, point_m), direction, row);
+  }
 
   /// Current pivot and axis of a joint in the base frame.
   Joint current(int joint) const { return joints_[joint].parent < 0 ? joints_[joint] : swung(joints_[joint]); }

@@ -20,7 +20,8 @@ using bench::Setup;
 const char* const kText = R"(## 7. MuJoCo, run by run
 
 The LabMate in both engines, driven by the same commands. MuJoCo's settings are those of `bench/engine.h`, the best found
-([bench.md](bench.md)): Euler with implicit damping, ellipsoid wheels, impratio 100, a contact time constant of two steps.
+([bench.md](bench.md)): Euler with implicit damping; on the floor spheres, impratio 10 000 and a contact time constant of two steps, on the cable
+cylinders, impratio 1, 4 ms and four times critical damping.
 Each engine's end pose is compared with exact kinematics of its own wheel angles (for the cable: plus the closed form's
 turn), and with umbsim's end pose. In the latter, MuJoCo's motors count too: its velocity servo follows a command with
 a lag, umbsim's motors follow exactly within their torque.
@@ -68,9 +69,8 @@ EndPose drive_job(Engine& engine, const RobotModel& robot, const Job& job) {
 }
 
 std::unique_ptr<Engine> mujoco(const Setup& setup) {
-  bench::MujocoOptions options;
-  options.contact_time_s = 2 * setup.step_s;
-  return bench::make_mujoco(setup, options);
+  const bool cable = !setup.floor.cables.empty();
+  return bench::make_mujoco(setup, cable ? bench::mujoco_for_cable() : bench::mujoco_for_square(setup.step_s));
 }
 
 struct Contender {

@@ -121,6 +121,22 @@ TEST(CarpetDrift, IsTheSameVectorBothWaysRound) {
 }
 
 // The closed form of a round cable, with the wheel's sink under its load taken off the height.
+// On an arc the wheels roll at different speeds. The carpet carries the robot by the mean of both, and does not turn it.
+TEST(CarpetDrift, CarriesTheRobotOnAnArcToo) {
+  constexpr double kDrift = 0.004, kDirection = 0.8, kMobility = 1e-7;
+  for (const double turn_radps : {0.3, -0.5}) {
+    TrialDrive drive(rig_with(CarpetDrift{kDrift, kDirection}));
+    drive.leg(0.2, turn_radps, 6);
+    const Pose2 e = drive.error();
+    const double shift_m = kDrift * drive.rolled_m;
+    const double tolerance_m = shift_m * std::abs(turn_radps) * 0.02 / 2;  // half a step of turning
+    std::cout << "carpet, arc: " << e.x_m << ", " << e.y_m << " m, rolled " << drive.rolled_m << " m\n";
+    EXPECT_NEAR(e.x_m, shift_m * std::cos(kDirection), tolerance_m);
+    EXPECT_NEAR(e.y_m, shift_m * std::sin(kDirection), tolerance_m);
+    EXPECT_NEAR(e.theta_rad, 0, kMobility) << "what contacts give under the curve's pull";
+  }
+}
+
 TEST(Bump, TurnsTheRobotTowardsTheBumpedWheelAtItsPlace) {
   constexpr double kModel = 0.01;  // a wheel that climbs carries more than at rest; inertia
   const double sink_m = Softness{}.static_sink_m, R = kRadius_m;

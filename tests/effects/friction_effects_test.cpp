@@ -93,6 +93,7 @@ TEST(OverAcceleration, StopsSlipFirst) {
   const auto slipping = [](double a_mps2) {
     return driven("effects/over_acceleration",
                   {"course.side_m=2", "course.linear_speed_mps=1", "course.angular_acceleration_radps2=0.1",
+                   "physics.step_s=0.02",  // long enough that the robot's nod as it sets off is over within a step
                    "effects.slippery_floor.friction=0.4",
                    "effects.over_acceleration.factor=" + std::to_string(a_mps2 / 0.25)},
                   Direction::ccw);
