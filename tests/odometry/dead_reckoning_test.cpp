@@ -120,7 +120,7 @@ TEST(DeadReckoning, CountsFromTheFirstReading) {
 }
 
 TEST(Encoder, RoundsToTheNearestTickAlikeForwardAndBackward) {
-  const EncoderSpec spec{2000, 50};
+  const EncoderSpec spec{2000, 50, {}, {}};
   const double tick = 2 * M_PI / 2000;
   EXPECT_EQ(ticks(spec, 0.49 * tick), 0);
   EXPECT_EQ(ticks(spec, 0.51 * tick), 1);
@@ -133,7 +133,7 @@ TEST(Encoder, RoundsToTheNearestTickAlikeForwardAndBackward) {
 }
 
 TEST(Encoder, TicksPerRevolutionMayBeFractional) {
-  const EncoderSpec spec{2796.8, 20};
+  const EncoderSpec spec{2796.8, 20, {}, {}};
   EXPECT_EQ(ticks(spec, 2 * M_PI * 10), 27968);
 }
 
