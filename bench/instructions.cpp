@@ -80,11 +80,14 @@ double number_after(const std::string& text, const char* word) {
   return at == std::string::npos ? 0 : std::strtod(text.c_str() + at + std::strlen(word), nullptr);
 }
 
-// The C library picks variants of sin and memcpy by processor; without these two features it picks the same anywhere.
+// The C library picks variants of sin and memcpy by processor; without these features it picks the same anywhere. An empty
+// environment: neither its size nor the locale counts.
 double instructions_per_simulated_s(const Case& c) {
   const std::string text = output_of(fmt::format(
-      "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4,-AVX_Fast_Unaligned_Load,-AVX2_Usable,-AVX_Usable valgrind --tool=callgrind --callgrind-out-file=/dev/null "
-      "--collect-atstart=no --toggle-collect=umbsim_counted '{}' drive {} 2>&1", own_path(), c.name));
+      "env -i PATH=\"$PATH\" LC_ALL=C "
+      "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4,-AVX_Fast_Unaligned_Load,-AVX2_Usable,-AVX_Usable "
+      "valgrind --tool=callgrind --callgrind-out-file=/dev/null --collect-atstart=no "
+      "--toggle-collect=umbsim_counted '{}' drive {} 2>&1", own_path(), c.name));
   const double simulated_s = number_after(text, "simulated_s ");
   const double instructions = number_after(text, "Collected : ");
   if (simulated_s > 0 && instructions > 0) return instructions / simulated_s;

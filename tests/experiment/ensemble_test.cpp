@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 
+#include "experiment/result_json.h"
 #include "experiment/run.h"
 #include "tests/experiment/scenarios.h"
 
@@ -58,6 +59,25 @@ TEST(Ensemble, TruePositionsLieInTheir95PercentEllipses) {
   std::cout << fmt::format("heading variance, driven over predicted: {:.3f}\n", heading_variance_ratio(r));
   EXPECT_NEAR(heading_variance_ratio(r), 1, 0.3);  // three standard errors: sqrt(2 / 200) each
   EXPECT_EQ(r.cost.solver_fallbacks, 0);
+}
+
+// Two hundred runs go into a page of moderate size; every run keeps its start and end.
+TEST(Page, ThinsThePathsWhereRunsAreMany) {
+  constexpr std::size_t kMost = 30000;  // poses of the whole page; a page of ten runs shows up to 400 of each
+  const ExperimentResult r = run_experiment(ensemble({"truth.rate_hz=50"}), 0);
+  const Json page = report_json(r);
+  ASSERT_EQ(page["runs"].size(), std::size_t(kRuns));
+  std::size_t recorded = 0, shown = 0;
+  for (std::size_t i = 0; i < page["runs"].size(); ++i) {
+    const auto& truth = r.recording.runs[i].truth;
+    recorded += truth.size();
+    shown += page["runs"][i]["truth"].size();
+    EXPECT_NEAR(page["runs"][i]["truth"].back()[0].get<double>(), truth.back().X_WB.x_m, 1e-6);
+    EXPECT_EQ(page["runs"][i]["odometry"].size(), page["runs"][i]["truth"].size());
+  }
+  EXPECT_GT(recorded, 4 * kMost);
+  EXPECT_LT(shown, kMost);
+  EXPECT_GT(shown, kMost / 2);
 }
 
 // The prediction holds for coarser and finer control periods and time steps, and after a fix.
