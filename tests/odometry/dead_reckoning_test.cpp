@@ -119,8 +119,15 @@ TEST(DeadReckoning, CountsFromTheFirstReading) {
   EXPECT_EQ(reckoning.pose().theta_rad, 0);
 }
 
+EncoderSpec encoder(double ticks_per_revolution, double rate_hz) {
+  EncoderSpec spec;
+  spec.ticks_per_revolution = ticks_per_revolution;
+  spec.rate_hz = rate_hz;
+  return spec;
+}
+
 TEST(Encoder, RoundsToTheNearestTickAlikeForwardAndBackward) {
-  const EncoderSpec spec{2000, 50, {}, {}};
+  const EncoderSpec spec = encoder(2000, 50);
   const double tick = 2 * M_PI / 2000;
   EXPECT_EQ(ticks(spec, 0.49 * tick), 0);
   EXPECT_EQ(ticks(spec, 0.51 * tick), 1);
@@ -133,7 +140,7 @@ TEST(Encoder, RoundsToTheNearestTickAlikeForwardAndBackward) {
 }
 
 TEST(Encoder, TicksPerRevolutionMayBeFractional) {
-  const EncoderSpec spec{2796.8, 20, {}, {}};
+  const EncoderSpec spec = encoder(2796.8, 20);
   EXPECT_EQ(ticks(spec, 2 * M_PI * 10), 27968);
 }
 
