@@ -9,7 +9,7 @@ namespace umbsim::bench {
 namespace {
 
 constexpr double kWidth = 760, kHeight = 440, kLeft = 70, kRight = 190, kTop = 40, kBottom = 55;
-constexpr double kMinSpeed = 10, kMaxSpeed = 20000, kMinError = 1e-5, kMaxError = 100;
+constexpr double kMinSpeed = 10, kMaxSpeed = 50000, kMinError = 1e-5, kMaxError = 100;
 
 double px(double speed) {
   const double part = std::log(std::clamp(speed, kMinSpeed, kMaxSpeed) / kMinSpeed) / std::log(kMaxSpeed / kMinSpeed);
@@ -42,7 +42,7 @@ std::string axes() {
 }  // namespace
 
 std::string accuracy_plot(const std::vector<PlotPoint>& points) {
-  constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7"};
+  constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000"};
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' font-family='sans-serif' font-size='12'>\n"
       "<rect width='{0}' height='{1}' fill='white'/>\n<text x='{2}' y='22' font-size='15'>Accuracy against cost: 4 m "
@@ -53,7 +53,7 @@ std::string accuracy_plot(const std::vector<PlotPoint>& points) {
     if (std::find(engines.begin(), engines.end(), p.engine) == engines.end()) engines.push_back(p.engine);
   }
   for (std::size_t i = 0; i < engines.size(); ++i) {
-    const char* colour = kColours[i % 4];
+    const char* colour = kColours[i % 5];
     std::string line;
     for (const PlotPoint& p : points) {
       if (p.engine != engines[i]) continue;
