@@ -99,8 +99,9 @@ void run_diagnose(const DiagnoseArguments& a) {
   const auto start = std::chrono::steady_clock::now();
   const std::string out = a.out.empty() ? "results/" + folder_name(a.recording) + "-diagnosis" : a.out;
   for (const std::string& e : a.excluded) find_effect(e);
-  const Recording recording = read_recording(a.recording);
-  const std::vector<std::string> limits = gap::check_recording(recording, a.recording);
+  const Recording given = read_recording(a.recording);
+  const std::vector<std::string> limits = gap::check_recording(given, a.recording);
+  const Recording recording = gap::with_moments_between(given);
   const Scenario scenario = a.scenario.empty() ? scenario_of(recording, a.recording) : read_scenario(a.scenario);
   prepare_output_folder(out, a.force);
   const Replay replay(scenario, recording);

@@ -193,6 +193,28 @@ std::vector<Pose2> at_truth(const RecordedRun& run, const std::vector<Pose2>& tr
   return result;
 }
 
+// The pose at the start, from the first metre of the track: single poses are noisy, the first one may be wrong.
+Pose2 start_of(const RecordedRun& run, const RecordedRobot& robot) {
+  constexpr double kWay_m = 1;
+  const OdometryParameters believed{robot.wheel_radius_m, robot.wheel_radius_m, robot.wheelbase_m,
+                                    robot.ticks_per_revolution};
+  DeadReckoning reckoning(believed, {}, run.encoders.front().left_ticks, run.encoders.front().right_ticks);
+  std::vector<Pose2> track{reckoning.pose()};
+  for (std::size_t i = 1; i < run.encoders.size(); ++i) {
+    reckoning.update(run.encoders[i].left_ticks, run.encoders[i].right_ticks);
+    track.push_back(reckoning.pose());
+  }
+  const std::vector<Pose2> at = at_truth(run, track);
+  std::vector<double> turned;
+  for (std::size_t k = 0; k < at.size() && (k < 3 || std::hypot(at[k].x_m, at[k].y_m) < kWay_m); ++k) {
+    turned.push_back(run.truth[k].X_WB.theta_rad - at[k].theta_rad);
+  }
+  std::nth_element(turned.begin(), turned.begin() + std::ptrdiff_t(turned.size() / 2), turned.end());
+  Pose2 start = run.truth.front().X_WB;
+  start.theta_rad = turned[turned.size() / 2];
+  return start;
+}
+
 std::vector<Push> timed(const std::vector<LegPush>& pushes, const std::vector<Stretch>& stretches) {
   std::vector<Push> result;
   for (const LegPush& p : pushes) {
@@ -218,6 +240,8 @@ Replay::Replay(const Scenario& scenario, const Recording& recording)
   scenario_.encoders.ticks_per_revolution = recording.robot.ticks_per_revolution;
   for (const RecordedRun& run : recording.runs) {
     stretches_.push_back(umbsim::stretches(run, recording.robot));
+    const bool track = recording.truth_kind == "track" && run.truth.size() > 20;
+    start_.push_back(track ? start_of(run, recording.robot) : run.truth.front().X_WB);
     lag_s_.push_back(measured_lag(run, 2 * M_PI / recording.robot.ticks_per_revolution));
   }
 }
@@ -258,7 +282,7 @@ std::vector<Pose2> Replay::poses(std::size_t index, const std::vector<Effect>& e
   const std::vector<double> left = shaft_speeds(run, r.encoders, r.encoders.left, true, lag_s_[index]);
   const std::vector<double> right = shaft_speeds(run, r.encoders, r.encoders.right, false, lag_s_[index]);
   World world(r.robot, r.drivetrain, r.floor, scenario_.physics, timed(r.pushes, stretches_[index]));
-  world.place(run.truth.front().X_WB);
+  world.place(start_[index]);
   std::vector<Pose2> track;
   track.reserve(run.encoders.size());
   track.push_back(world.pose());
@@ -274,7 +298,7 @@ std::vector<std::array<double, 2>> Replay::counts(std::size_t index, const std::
   const RecordedRun& run = recording_.runs[index];
   const Rig r = rig(index, effects);
   World world(r.robot, r.drivetrain, r.floor, scenario_.physics, timed(r.pushes, stretches_[index]));
-  world.place(run.truth.front().X_WB);
+  world.place(start_[index]);
   std::vector<std::array<double, 2>> shaft{{world.encoder_angle(0), world.encoder_angle(1)}};
   for (std::size_t i = 1; i < run.encoders.size(); ++i) {
     world.command(run.encoders[i].left_command_radps, run.encoders[i].right_command_radps);

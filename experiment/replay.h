@@ -22,7 +22,7 @@ class Replay {
   const Scenario& scenario() const { return scenario_; }
   const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }
 
-  /// Absolute poses at the times of the run's truth, starting at its first one. Throws RunError, InputError.
+  /// Absolute poses at the times of the run's truth. The start is where odometry lies best on the first part of the track. Throws RunError, InputError.
   std::vector<Pose2> poses(std::size_t run, const std::vector<Effect>& effects) const;
 
   /// What the encoders would count, as angles in radians (left, right) and without rounding, at the times of the encoder
@@ -40,6 +40,7 @@ class Replay {
   const Recording& recording_;
   RobotModel nominal_;
   std::vector<std::vector<Stretch>> stretches_;
+  std::vector<Pose2> start_;   // of each run
   std::vector<double> lag_s_;  // of the counts behind the commands, per run
 };
 

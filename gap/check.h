@@ -13,4 +13,7 @@ namespace umbsim::gap {
 /// direction only, end points only, no replicates), in words.
 std::vector<std::string> check_recording(const Recording& recording, const std::string& directory);
 
+/// Moments between two end points, so that a run can be followed through; the poses there stand for nothing.
+Recording with_moments_between(Recording recording);
+
 }  // namespace umbsim::gap

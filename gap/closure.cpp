@@ -30,12 +30,16 @@ TrackError aligned_error(const Model& model, std::size_t run, const std::vector<
   Eigen::VectorXd error = track_error(predicted, recorded(model.recording(), run));
   const auto products = filter.kick_products(filter.whiten(error));
   std::vector<Eigen::Vector3d> start(filter.samples(), Eigen::Vector3d::Zero());
-  start[0] = products.with_itself[0].ldlt().solve(products.with_column[0]);
+  start[0] = (products.with_itself[0] + 1e-9 * Eigen::Matrix3d::Identity()).ldlt().solve(products.with_column[0]);
   error -= filter.propagate(start);
   TrackError result;
+  double seen = 0;
   for (std::size_t k = 0; k < filter.samples(); ++k) {
-    result.mean_square_m2 += error.segment<2>(3 * Eigen::Index(k)).squaredNorm() / double(filter.samples());
+    if (!model.observed(run, k)) continue;
+    result.mean_square_m2 += error.segment<2>(3 * Eigen::Index(k)).squaredNorm();
+    seen += 1;
   }
+  result.mean_square_m2 /= std::max(1.0, seen);
   result.end_rad = error[error.size() - 1];
   return result;
 }
@@ -46,6 +50,7 @@ double floor_m2(const Model& model, std::size_t run) {
   const NoiseModel& n = model.noise();
   Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
   double sum = 0;
+  double seen = 0;
   for (std::size_t k = 0; k < path.size(); ++k) {
     if (k > 0) {
       const Pose2 u = inverse(path[k - 1]) * path[k];
@@ -56,9 +61,11 @@ double floor_m2(const Model& model, std::size_t run) {
       P = (T * P * T.transpose()).eval();
       P.diagonal() += model.rolled(run)[k] * Eigen::Vector3d(n.along_m2_pm, n.across_m2_pm, n.heading_rad2_pm);
     }
+    if (!model.observed(run, k)) continue;
     sum += P(0, 0) + P(1, 1) + 2 * n.position_sd_m * n.position_sd_m;
+    seen += 1;
   }
-  return sum / double(path.size());
+  return sum / std::max(1.0, seen);
 }
 
 }  // namespace

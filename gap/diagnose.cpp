@@ -134,6 +134,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   const double gap = std::max(d.causes.front().name == "none" ? 0 : d.causes.front().score, generic_none);
   d.detected = gap > t.detect;
   d.p_value = tail(2 * std::max(0.0, gap), 2);
+  d.noise = model.noise();
   d.noise_floor_mm = 1000 * noise_floor_m(model);
   if (!d.detected) {
     const auto at = std::find_if(d.causes.begin(), d.causes.end(), [](const Cause& c) { return c.name == "none"; });

@@ -68,6 +68,7 @@ struct Diagnosis {
   double unexplained_p = 1;
   std::string left_over;                    ///< description, empty if nothing is left
   Closure closure;
+  NoiseModel noise;                         ///< as estimated from the runs
   double noise_floor_mm = 0;
   double before_mm = 0;                     ///< root mean square position error of the scenario as it was
   double explainable_fraction = 0;          ///< of the evidence for a gap, what the first cause takes

@@ -64,6 +64,12 @@ Json diagnosis_json(const Diagnosis& d) {
                  {"p_value", d.p_value},
                  {"noise_floor_mm", number(d.noise_floor_mm)},
                  {"before_mm", number(d.before_mm)}};
+  json["noise"] = {{"heading_rad_per_sqrt_m", std::sqrt(d.noise.heading_rad2_pm)},
+                   {"along_m_per_sqrt_m", std::sqrt(d.noise.along_m2_pm)},
+                   {"across_m_per_sqrt_m", std::sqrt(d.noise.across_m2_pm)},
+                   {"position_sd_m", d.noise.position_sd_m},
+                   {"heading_sd_rad", d.noise.heading_sd_rad},
+                   {"clock_s", d.noise.clock_s}};
   Json segments = Json::array();
   for (const SegmentScore& s : d.segments) {
     segments.push_back({{"run", s.run}, {"leg", s.leg}, {"part", s.part}, {"score", number(s.score)},

@@ -107,6 +107,21 @@ std::vector<Effect> effects_of(const Family& family, const Eigen::VectorXd& p) {
 
 namespace {
 
+// Both encoders lose the same share.
+Family both_miss() {
+  const EffectInfo& info = find_effect("encoder_missed_counts");
+  const EffectValues base = neutral_effect(info).values;
+  const std::size_t left = index_of(info, "left_probability");
+  const std::size_t right = index_of(info, "right_probability");
+  Family family{"encoder_missed_counts", "both", {{"probability", 0, 1e-3, 0.005, 0, 0.9}}, {}, {}, true, 0};
+  family.values = [=](const Eigen::VectorXd& p) {
+    EffectValues values = base;
+    values.numbers[left] = values.numbers[right] = p[0];
+    return values;
+  };
+  return family;
+}
+
 // Toed wheels scrub, and how that slows and turns the robot depends on how softly the tyres grip.
 Family on_soft_tyres(Family family) {
   family.variant += ", soft tyres";
@@ -148,6 +163,7 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution)
       direct("motor_response", "deadband", {positive("deadband_radps", 0.02, 0.05)}),
       direct("encoder_missed_counts", "right", {positive("right_probability", 1e-3, 0.005)}),
       direct("encoder_missed_counts", "left", {positive("left_probability", 1e-3, 0.005)}),
+      both_miss(),
       direct("encoder_missed_counts", "speed", {positive("probability_per_radps", 3e-4, 1e-3)}),
       direct("encoder_latency", "delay", {positive("seconds", 0.02, 0.1)}),
       direct("tyre_compliance", "both", {positive("metres_per_newton", 5e-7, 3e-6)}),
@@ -164,35 +180,55 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution)
   return all;
 }
 
-Family bump_family(double x_m, double y_m, double direction_rad) {
-  return searched(from_start(direct("bump", "height", {{"height_m", 0, 5e-4, 0.008, 5e-4, 0.02}},
-                           {{"x_m", x_m}, {"y_m", y_m}, {"direction_rad", direction_rad}}),
-                    0.005), kPlaces);
+Family bump_family(double x_m, double y_m, double heading_rad) {
+  const EffectInfo& info = find_effect("bump");
+  const EffectValues base = neutral_effect(info).values;
+  const std::size_t h = index_of(info, "height_m");
+  const std::size_t x = index_of(info, "x_m");
+  const std::size_t y = index_of(info, "y_m");
+  const std::size_t d = index_of(info, "direction_rad");
+  Family family{"bump", "height and place",
+                {{"height_m", 0.005, 5e-4, 0.008, 5e-4, 0.02}, {"further along m", 0, 0.004, 0.03, -0.1, 0.1}},
+                {}, {}, false, kPlaces};
+  family.values = [=](const Eigen::VectorXd& p) {
+    EffectValues values = base;
+    values.numbers[h] = p[0];
+    values.numbers[x] = x_m + p[1] * std::cos(heading_rad);
+    values.numbers[y] = y_m + p[1] * std::sin(heading_rad);
+    values.numbers[d] = std::remainder(heading_rad + M_PI / 2, M_PI);
+    return values;
+  };
+  return family;
 }
 
 Family lift_family(double x_m, double y_m) {
-  return searched(from_start(direct("wheel_lift", "length", {{"length_m", 0, 0.005, 0.05, 0.002, 0.3}},
-                           {{"x_m", x_m}, {"y_m", y_m}}),
-                    0.03), kPlaces);
+  return searched(from_start(direct("wheel_lift", "length", {{"length_m", 0, 0.003, 0.05, 0.002, 0.3}},
+                                    {{"x_m", x_m}, {"y_m", y_m}}),
+                             0.03),
+                  kPlaces);
 }
 
-Family patch_family(double x_m, double y_m, double radius_m) {
-  return searched(from_start(direct("slippery_patch", "friction", {{"friction", 0, 0.005, 0.2, 0.005, 0.8}},
-                           {{"x_m", x_m}, {"y_m", y_m}, {"radius_m", radius_m}}),
-                    0.03), kPlaces);
+Family patch_family(double x_m, double y_m) {
+  Family family = direct("slippery_patch", "friction and radius",
+                         {{"friction", 0, 0.005, 0.2, 0.005, 0.8}, {"radius_m", 0.3, 0.02, 0.4, 0.03, 1.5}},
+                         {{"x_m", x_m}, {"y_m", y_m}});
+  return searched(from_start(std::move(family), 0.03), kPlaces);
 }
 
 Family push_family(const std::string& run, int leg, double seconds_into_leg) {
-  Family family = direct("push", run,
-                         {{"impulse_newton_seconds", 0, 1, 40, -1000, 1000}},
-                         {{"leg", double(leg)}, {"seconds_into_leg", seconds_into_leg}});
-  family.from_zero = false;
-  family.search_cost = kMoments;
-  family.parameters.front().start = 30;
-  const auto inner = family.values;
-  family.values = [inner, run](const Eigen::VectorXd& p) {
-    EffectValues values = inner(p);
+  const EffectInfo& info = find_effect("push");
+  const EffectValues base = neutral_effect(info).values;
+  const std::size_t l = index_of(info, "leg");
+  const std::size_t t = index_of(info, "seconds_into_leg");
+  const std::size_t i = index_of(info, "impulse_newton_seconds");
+  Family family{"push", run,
+                {{"impulse_newton_seconds", 30, 1, 60, -1000, 1000}}, {}, {}, false, kMoments};
+  family.values = [=](const Eigen::VectorXd& p) {
+    EffectValues values = base;
     values.run = run;
+    values.numbers[l] = leg;
+    values.numbers[t] = seconds_into_leg;
+    values.numbers[i] = p[0];
     return values;
   };
   return family;

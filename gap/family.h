@@ -43,9 +43,10 @@ Effect effect_of(const Family& family, const Eigen::VectorXd& p);
 std::vector<Family> plain_families(double period_s, double ticks_per_revolution);
 
 /// Families of local effects, at a place of the floor or a moment of one run.
-Family bump_family(double x_m, double y_m, double direction_rad);
+/// `heading_rad`: of the robot as it passes; the cable lies across.
+Family bump_family(double x_m, double y_m, double heading_rad);
 Family lift_family(double x_m, double y_m);
-Family patch_family(double x_m, double y_m, double radius_m);
+Family patch_family(double x_m, double y_m);
 Family push_family(const std::string& run, int leg, double seconds_into_leg);
 
 }  // namespace umbsim::gap

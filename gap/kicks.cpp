@@ -52,8 +52,11 @@ Kicks find_kicks(const Model& model, const Fit& fit) {
   std::vector<std::array<std::vector<Pose2>, 2>> wheels(runs);
   for (std::size_t r = 0; r < runs; ++r) {
     for (int w = 0; w < 2; ++w) {
-      for (const TruthSample& t : recording.runs[r].truth) {
-        wheels[r][std::size_t(w)].push_back(wheel_place(t.X_WB, w, recording.robot.wheelbase_m));
+      for (std::size_t k = 0; k < recording.runs[r].truth.size(); ++k) {
+        // Where the tracker saw the robot; between end points, where the wheels believed to be.
+        const bool tracked = recording.truth_kind != "endpoints";
+        const Pose2& X_WB = tracked ? recording.runs[r].truth[k].X_WB : model.nominal_tracks()[r][k];
+        wheels[r][std::size_t(w)].push_back(wheel_place(X_WB, w, recording.robot.wheelbase_m));
       }
     }
   }

@@ -18,6 +18,8 @@ namespace {
 
 constexpr int kFeatureRows = 8;  // three of a run, and five of the recording, which stand with the first run
 constexpr int kLocal = 2;
+constexpr double kDensest_hz = 12;  // of a truth that is used whole
+constexpr double kThinned_hz = 2;   // of one that is thinned
 
 bool acts_on_counts(const std::vector<Effect>& effects) {
   return std::any_of(effects.begin(), effects.end(), [](const Effect& e) {
@@ -78,6 +80,8 @@ Model::Model(const Recording& recording, Simulator simulator, const Scatter& sca
     stretches_.push_back(umbsim::stretches(run, recording.robot));
     std::vector<Pose2> truth;
     for (const TruthSample& t : run.truth) truth.push_back(t.X_WB);
+    const double rate_hz = double(truth.size() - 1) / (run.truth.back().time_s - run.truth.front().time_s);
+    thinning_.push_back(rate_hz > kDensest_hz ? std::size_t(std::ceil(rate_hz / kThinned_hz)) : 1);
     truth_.push_back(std::move(truth));
     std::vector<double> rolled;
     for (const auto& d : travel(run, recording.robot)) rolled.push_back((std::abs(d[0]) + std::abs(d[1])) / 2);
@@ -185,6 +189,19 @@ Eigen::VectorXd Model::feature_rows(std::size_t run, const CommandFeatures& a, c
 
 namespace {
 
+// Whether two runs drove the same way at the same times, by their odometry.
+bool alike(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
+  const std::size_t n = std::min(a.size(), b.size());
+  if (double(std::max(a.size(), b.size()) - n) > 0.05 * double(n)) return false;
+  double square = 0;
+  double square_rad = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    square += std::pow(a[k].x_m - b[k].x_m, 2) + std::pow(a[k].y_m - b[k].y_m, 2);
+    square_rad += std::pow(a[k].theta_rad - b[k].theta_rad, 2);
+  }
+  return std::sqrt(square / double(n)) < 0.01 && std::sqrt(square_rad / double(n)) < 0.02;
+}
+
 // Robust log likelihood of differences of replicates under a noise model: large innovations count as 4 sigma.
 double replicate_log_likelihood(const std::vector<Eigen::VectorXd>& differences,
                                 const std::vector<std::vector<Pose2>>& paths,
@@ -207,6 +224,109 @@ double replicate_log_likelihood(const std::vector<Eigen::VectorXd>& differences,
 
 }  // namespace
 
+std::vector<bool> Model::seen(std::size_t run) const {
+  std::vector<bool> seen;
+  for (std::size_t k = 0; k < truth_[run].size(); ++k) seen.push_back(observed(run, k));
+  return seen;
+}
+
+std::vector<Eigen::Vector3d> Model::velocity(std::size_t run) const {
+  const auto& truth = recording_.runs[run].truth;
+  const std::vector<Pose2>& path = nominal_[run];
+  std::vector<Eigen::Vector3d> result;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const std::size_t a = k > 0 ? k - 1 : 0;
+    const std::size_t b = std::min(path.size() - 1, k + 1);
+    const Pose2 u = inverse(path[a]) * path[b];
+    const double dt = std::max(1e-6, truth[b].time_s - truth[a].time_s);
+    result.emplace_back(u.x_m / dt, u.y_m / dt, u.theta_rad / dt);
+  }
+  return result;
+}
+
+namespace {
+
+// The likelihood's maximum over the noise model, by a coordinate search on logarithms: a handful of numbers.
+template <class Likelihood>
+NoiseModel most_likely(NoiseModel best, const Likelihood& log_likelihood) {
+  double NoiseModel::*members[] = {&NoiseModel::heading_rad2_pm, &NoiseModel::along_m2_pm, &NoiseModel::across_m2_pm,
+                                   &NoiseModel::position_sd_m, &NoiseModel::heading_sd_rad,
+                                   &NoiseModel::clock_s};
+  double best_value = log_likelihood(best);
+  for (double factor = 4; factor > 1.1; factor = std::sqrt(factor)) {
+    for (int sweep = 0; sweep < 2; ++sweep) {
+      for (const auto member : members) {
+        for (const double f : {factor, 1 / factor}) {
+          for (int step = 0; step < 6; ++step) {
+            NoiseModel trial = best;
+            trial.*member *= f;
+            const double value = log_likelihood(trial);
+            if (value <= best_value) break;
+            best = trial;
+            best_value = value;
+          }
+        }
+      }
+    }
+  }
+  best.heading_rad2_pm = std::max(best.heading_rad2_pm, 1e-9);
+  best.along_m2_pm = std::max(best.along_m2_pm, 1e-10);
+  best.across_m2_pm = std::max(best.across_m2_pm, 1e-10);
+  return best;
+}
+
+}  // namespace
+
+// Without runs that can be subtracted: what the geometry (radii, wheelbase), the tracker's frame and the clock leave of
+// each run is taken for noise, by fitting and estimating in turn.
+void Model::noise_from_what_is_left() {
+  const std::size_t runs = truth_.size();
+  const double b = recording_.robot.wheelbase_m;
+  for (int round = 0; round < 3; ++round) {
+    constexpr int kColumns = 7;
+    Eigen::MatrixXd A = Eigen::MatrixXd::Identity(kColumns, kColumns) * 1e-6;
+    Eigen::VectorXd c = Eigen::VectorXd::Zero(kColumns);
+    std::vector<Eigen::VectorXd> error(runs);
+    std::vector<Eigen::MatrixXd> columns(runs);
+    for (std::size_t r = 0; r < runs; ++r) {
+      const TrackFilter filter(nominal_[r], rolled_[r], noise_, seen(r), velocity(r));
+      const std::size_t n = filter.samples();
+      error[r] = track_error(nominal_[r], truth_[r]);
+      const auto wheels = travel(recording_.runs[r], recording_.robot);
+      std::vector<std::vector<Eigen::Vector3d>> kicks(3, std::vector<Eigen::Vector3d>(n, Eigen::Vector3d::Zero()));
+      columns[r] = Eigen::MatrixXd::Zero(3 * Eigen::Index(n), kColumns);
+      for (std::size_t k = 1; k < n; ++k) {
+        kicks[0][k] = {wheels[k][0] / 2, 0, -wheels[k][0] / b};
+        kicks[1][k] = {wheels[k][1] / 2, 0, wheels[k][1] / b};
+        kicks[2][k] = {0, 0, (wheels[k][1] - wheels[k][0]) / b};
+        const Eigen::Index row = 3 * Eigen::Index(k);
+        const double dt = std::max(1e-6, recording_.runs[r].truth[k].time_s - recording_.runs[r].truth[k - 1].time_s);
+        const Pose2 u = inverse(nominal_[r][k - 1]) * nominal_[r][k];
+        columns[r](row, 3) = 1;
+        columns[r](row + 1, 4) = 1;
+        columns[r](row + 2, 5) = 1;
+        columns[r].block<3, 1>(row, 6) << u.x_m / dt, u.y_m / dt, u.theta_rad / dt;
+      }
+      columns[r](0, 3) = columns[r](1, 4) = columns[r](2, 5) = 1;
+      for (int i = 0; i < 3; ++i) columns[r].col(i) = filter.propagate(kicks[std::size_t(i)]);
+      const Eigen::MatrixXd white = filter.whiten(columns[r]);
+      A += white.transpose() * white;
+      c += white.transpose() * filter.whiten(error[r]);
+    }
+    const Eigen::VectorXd x = A.ldlt().solve(c);
+    noise_ = most_likely(noise_, [&](const NoiseModel& noise) {
+      double total = 0;
+      for (std::size_t r = 0; r < runs; ++r) {
+        const TrackFilter filter(nominal_[r], rolled_[r], noise, seen(r), velocity(r));
+        const Eigen::VectorXd white = filter.whiten(error[r] - columns[r] * x);
+        total -= 0.5 * filter.log_det();
+        for (Eigen::Index k = 0; k < white.size(); ++k) total -= 0.5 * std::min(white[k] * white[k], 16.0);
+      }
+      return total;
+    });
+  }
+}
+
 void Model::estimate_noise() {
   const double tick_m = 2 * M_PI * recording_.robot.wheel_radius_m / recording_.robot.ticks_per_revolution;
   const double rounding_m = tick_m / std::sqrt(12.0);
@@ -222,10 +342,8 @@ void Model::estimate_noise() {
       if (conditions_[a] != conditions_[b] || recording_.runs[a].direction != recording_.runs[b].direction) continue;
       if (recording_.path.shape != "square") continue;
       // The same plan in time, or they cannot be subtracted.
-      const double da = recording_.runs[a].encoders.back().time_s;
-      const double db = recording_.runs[b].encoders.back().time_s;
-      if (std::abs(da - db) > 0.5) continue;
       const std::size_t n = std::min(truth_[a].size(), truth_[b].size());
+      if (!alike(nominal_[a], nominal_[b]) || recording_.truth_kind == "endpoints") continue;
       Eigen::VectorXd ya = track_error(nominal_[a], truth_[a]);
       const Eigen::VectorXd yb = track_error(nominal_[b], truth_[b]);
       differences.push_back(ya.head(3 * Eigen::Index(n)) - yb.head(3 * Eigen::Index(n)));
@@ -235,37 +353,18 @@ void Model::estimate_noise() {
     }
   }
   replicated_ = !differences.empty();
-  if (!replicated_) return;
-  // Coordinate search on logarithms: a handful of numbers, each likelihood costs a millisecond.
-  double NoiseModel::*members[] = {&NoiseModel::heading_rad2_pm, &NoiseModel::along_m2_pm, &NoiseModel::across_m2_pm,
-                                   &NoiseModel::position_sd_m, &NoiseModel::heading_sd_rad};
-  NoiseModel best = noise_;
-  double best_value = replicate_log_likelihood(differences, paths, rolled, best);
-  for (double factor = 4; factor > 1.1; factor = std::sqrt(factor)) {
-    for (int sweep = 0; sweep < 2; ++sweep) {
-      for (const auto member : members) {
-        for (const double f : {factor, 1 / factor}) {
-          for (int step = 0; step < 6; ++step) {
-            NoiseModel trial = best;
-            trial.*member *= f;
-            const double value = replicate_log_likelihood(differences, paths, rolled, trial);
-            if (value <= best_value) break;
-            best = trial;
-            best_value = value;
-          }
-        }
-      }
-    }
+  if (!replicated_) {
+    if (recording_.truth_kind == "track") noise_from_what_is_left();
+    return;
   }
-  best.heading_rad2_pm = std::max(best.heading_rad2_pm, 1e-9);
-  best.along_m2_pm = std::max(best.along_m2_pm, 1e-10);
-  best.across_m2_pm = std::max(best.across_m2_pm, 1e-10);
-  noise_ = best;
+  noise_ = most_likely(noise_, [&](const NoiseModel& noise) {
+    return replicate_log_likelihood(differences, paths, rolled, noise);
+  });
 }
 
 void Model::make_filters() {
   filters_.clear();
-  for (std::size_t r = 0; r < recording_.runs.size(); ++r) filters_.emplace_back(nominal_[r], rolled_[r], noise_);
+  for (std::size_t r = 0; r < recording_.runs.size(); ++r) filters_.emplace_back(nominal_[r], rolled_[r], noise_, seen(r), velocity(r));
 }
 
 // Shared: marker offset (2), clock, and for every pair of speed, payload and kind of turn the scatter between engines.
@@ -280,11 +379,12 @@ void Model::make_nuisances() {
     group_of.push_back(std::size_t(found - groups.begin()));
     if (found == groups.end()) groups.push_back(key);
   }
-  constexpr int kShared = 5;
+  constexpr int kShared = 6;
   constexpr int kPerGroup = 5;
   nuisances_ = kShared + kPerGroup * int(groups.size());
   nuisance_sd_.resize(nuisances_);
-  nuisance_sd_.head(kShared) << scatter_.marker_m, scatter_.marker_m, scatter_.clock_s, scatter_.creep_across, 1;
+  nuisance_sd_.head(kShared) << scatter_.marker_m, scatter_.marker_m, scatter_.clock_s, scatter_.creep_across, 1,
+      frame_is_free() ? scatter_.frame_rad : 0;
   // No two engines, and no real tyre, grip sideways alike: the creep of the tyres is a nuisance up to its usual size.
   Effect creep = neutral_effect(find_effect("tyre_creep"));
   constexpr double kCreep = 0.01;
@@ -309,6 +409,7 @@ void Model::make_nuisances() {
       const Eigen::Index row = 3 * Eigen::Index(k);
       raw(row, 0) = 1;
       raw(row + 1, 1) = 1;
+      raw(row + 2, 5) = 1;
       const std::size_t a = k > 0 ? k - 1 : 0;
       const std::size_t b = std::min(n - 1, k + 1);
       const double dt = std::max(1e-6, truth[b].time_s - truth[a].time_s);
@@ -341,6 +442,10 @@ void Model::make_nuisances() {
     local_columns_[r].topRows(3 * Eigen::Index(n)) = filters_[r].whiten(local);
   }
 }
+
+// A real robot's tracker is mounted by hand: its frame is free unless heading and position are known as well as a
+// simulated one's.
+bool Model::frame_is_free() const { return recording_.truth_heading_sd_rad > 0.001; }
 
 // Tracks with the floor just so slippery that the robot moves by a share of the noise floor: engines, and tyres, differ
 // in when exactly they let go under a jolt. Empty if no floor is that slippery.
@@ -549,6 +654,15 @@ Fit Model::none() const {
   return fit;
 }
 
+double Model::density_at(const std::vector<Family>& families, const Eigen::VectorXd& p) const {
+  Fit fit;
+  fit.families = families;
+  fit.p = p;
+  const std::vector<Effect> effects = fit.effects();
+  const auto tracks = simulate({effects}).front();
+  return evidence(grams(residuals(tracks, effects), {}), all_runs(), first_columns(nuisances_), nuisance_sd_).log_density;
+}
+
 Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start, int rounds) const {
   Fit fit;
   fit.families = families;
@@ -560,6 +674,8 @@ Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start
   const Eigen::VectorXd sd = joined(nuisance_sd_, prior_sd(families));
   Fit best;
   double best_density = -1e300;
+  // Places and moments bend the simulator most.
+  if (std::any_of(families.begin(), families.end(), [](const Family& f) { return f.search_cost > 0; })) rounds *= 2;
   for (int round = 0; round < rounds; ++round) {
     std::vector<std::vector<Effect>> sets{fit.effects()};
     std::vector<double> steps;

@@ -25,6 +25,7 @@ struct Scatter {
   double heading_rad_pm = 5e-5; ///< along legs
   double lateral = 3e-5;        ///< along legs
   double marker_m = 0.003;      ///< of the tracked point from the axle's middle
+  double frame_rad = 0.02;      ///< of the tracker's heading from the drive axis, where it is free
   double clock_s = 0.05;        ///< between encoders and tracker
   double creep_across = 0.03;   ///< sideways creep of the tyres
   double slip_share = 0.2;      ///< displacement by slip under jolts, in noise floors
@@ -76,6 +77,12 @@ class Model {
   const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }
   const std::vector<std::vector<Pose2>>& nominal_tracks() const { return nominal_; }
   const TrackFilter& filter(std::size_t run) const { return filters_[run]; }
+  /// Whether a sample of the truth counts: of end points only the first and the last, of a dense track a few a second,
+  /// for the errors of a tracker go on from one picture to the next.
+  bool observed(std::size_t run, std::size_t sample) const {
+    return sample == 0 || sample + 1 == truth_[run].size() ||
+           (recording_.truth_kind != "endpoints" && sample % thinning_[run] == 0);
+  }
   const std::vector<std::string>& conditions() const { return conditions_; }  ///< of each run
   const std::vector<double>& rolled(std::size_t run) const { return rolled_[run]; }
   const CommandFeatures& features_of(std::size_t run) const { return measured_[run]; }
@@ -106,6 +113,9 @@ class Model {
   /// No effect at all.
   Fit none() const;
 
+  /// Log density of the data with the families' numbers held at p, against none: how well a start would do.
+  double density_at(const std::vector<Family>& families, const Eigen::VectorXd& p) const;
+
   /// Fits the free numbers of the families together, in the simulator. `start`: empty for the families' own.
   Fit fit(const std::vector<Family>& families, const Eigen::VectorXd& start = {}, int rounds = 4) const;
 
@@ -125,6 +135,10 @@ class Model {
   double simulated_s() const { return simulated_s_; }
 
  private:
+  std::vector<bool> seen(std::size_t run) const;
+  std::vector<Eigen::Vector3d> velocity(std::size_t run) const;
+  bool frame_is_free() const;
+  void noise_from_what_is_left();
   void find_conditions();
   void estimate_noise();
   void make_filters();
@@ -146,6 +160,7 @@ class Model {
   std::vector<std::string> conditions_;
   std::vector<std::vector<double>> rolled_;
   std::vector<std::vector<Pose2>> truth_;
+  std::vector<std::size_t> thinning_;  ///< every so many-th sample of the truth counts
   std::vector<std::vector<Pose2>> nominal_;
   std::vector<TrackFilter> filters_;
   std::vector<CommandFeatures> measured_;

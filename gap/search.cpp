@@ -18,8 +18,6 @@ Eigen::VectorXd start_of(const Family& family) {
   return p;
 }
 
-double upright(double direction_rad) { return std::remainder(direction_rad, M_PI); }
-
 // The leg that a moment belongs to, and the seconds since its start; before the first leg: leg 0.
 std::pair<int, double> leg_at(const std::vector<Stretch>& stretches, double time_s) {
   std::pair<int, double> leg{0, 0};
@@ -95,7 +93,8 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
     moved.head(fixed) = shift;
     for (int i = 0; i < count; ++i) columns.push_back(fixed + 1 + first + i);
     const Evidence e = evidence(grams, runs, columns, sd, moved);
-    Candidate c{families_[f], start_of(families_[f]), e.log_density - before};
+    Candidate c{families_[f], start_of(families_[f]), {}, e.log_density - before};
+    if (families_[f].effect == "slippery_floor") c.starts = {0.2, 0.12, 0.08, 0.06, 0.045, 0.035, 0.03};
     for (int i = 0; i < count; ++i) {
       const double mean = e.mean[fixed + i];
       if (!families_[f].from_zero) {
@@ -113,15 +112,16 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
   }
   const Kicks kicks = find_kicks(model_, fit);
   const double R = model_.recording().robot.wheel_radius_m;
-  const auto offer = [&](Family family, double start, double gain) {
+  const auto offer = [&](Family family, std::vector<double> starts, double gain) {
     if (excluded_.count(family.effect) > 0) return;
+    // Two local events at once are not looked for: the second would mend the first one's shape.
     const bool there = std::any_of(fit.families.begin(), fit.families.end(),
-                                   [&](const Family& g) { return g.effect == family.effect; });
+                                   [&](const Family& g) { return g.search_cost > 0; });
     if (there) return;
     Eigen::VectorXd p = start_of(family);
-    p[0] = start;
+    p[0] = starts.front();
     const double cost = family.search_cost;
-    candidates.push_back({std::move(family), p, gain - cost});
+    candidates.push_back({std::move(family), p, std::move(starts), gain - cost});
   };
   for (std::size_t i = 0; i < std::min<std::size_t>(kicks.places.size(), 2); ++i) {
     const PlaceKick& k = kicks.places[i];
@@ -129,18 +129,18 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
     if (k.lost_m > 0) {
       // Closed form of a cable that costs a wheel this distance.
       const double height_m = 0.5 * std::pow(3 * std::sqrt(R) * k.lost_m, 2.0 / 3);
-      offer(bump_family(k.x_m, k.y_m, upright(k.heading_rad + M_PI / 2)), std::clamp(height_m, 0.001, 0.02), k.gain);
-      offer(lift_family(k.x_m, k.y_m), std::clamp(k.lost_m, 0.003, 0.2), k.gain - 1);
+      offer(bump_family(k.x_m, k.y_m, k.heading_rad), {std::clamp(height_m, 0.001, 0.02)}, k.gain);
+      offer(lift_family(k.x_m, k.y_m), {0.005, 0.01, 0.03, 0.08, 0.15}, k.gain - 1);
     }
-    offer(patch_family(k.x_m, k.y_m, 0.3), 0.03, k.gain - 2);
+    offer(patch_family(k.x_m, k.y_m), {0.01, 0.03, 0.08}, k.gain - 2);
   }
   if (!kicks.moments.empty() && kicks.moments.front().gain > 5) {
     const Kick& k = kicks.moments.front();
     const RecordedRun& run = model_.recording().runs[k.run];
     const auto [leg, seconds] = leg_at(model_.stretches(k.run), run.truth[k.sample].time_s);
     if (leg > 0) {
-      offer(push_family(run.id, leg, std::max(0.0, std::round(seconds * 10 - 1) / 10)), k.size[2] >= 0 ? 20 : -20,
-            k.gain);
+      offer(push_family(run.id, leg, std::max(0.0, std::round(seconds * 10 - 1) / 10)),
+            {-150, -80, -45, -25, -14, 14, 25, 45, 80, 150}, k.gain);
     }
   }
   std::sort(candidates.begin(), candidates.end(),
@@ -163,6 +163,17 @@ std::vector<Fit> search(const Model& model, const Screen& screen, const Threshol
     Eigen::VectorXd start(base.p.size() + c.start.size());
     start << base.p, c.start;
     try {
+      double best = -1e300;
+      double chosen = c.start[0];
+      for (const double first : c.starts) {
+        start[base.p.size()] = first;
+        const double density = model.density_at(families, start);
+        if (density > best) {
+          best = density;
+          chosen = first;
+        }
+      }
+      start[base.p.size()] = chosen;
       Fit fit = model.fit(families, start);
       fit.size = displacement_m(fit.tracks, base.tracks) / floor_m;
       // What moves counts against commands, and not the robot, is seen there.

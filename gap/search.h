@@ -17,6 +17,7 @@ class Screen {
   struct Candidate {
     Family family;
     Eigen::VectorXd start;
+    std::vector<double> starts;  ///< of the first number, where the simulator bends; empty: only `start`
     double gain = 0;  ///< log evidence expected on top of the fit
   };
   /// Families that could explain what `fit` leaves, best first; local ones (places, moments) are searched for anew.

@@ -9,7 +9,7 @@ namespace {
 
 // Standard deviations of the start pose before anything is seen: the tracker's frame and the start are free.
 constexpr double kStart_m = 0.02;
-constexpr double kStart_rad = 0.05;
+constexpr double kStart_rad = 0.2;
 
 // How a small error moves along when the robot moves by `u`: u^-1 e u to first order.
 Eigen::Matrix3d transition(const Pose2& u) {
@@ -35,7 +35,8 @@ Eigen::VectorXd track_error(const std::vector<Pose2>& predicted, const std::vect
 }
 
 TrackFilter::TrackFilter(const std::vector<Pose2>& path, const std::vector<double>& rolled_m,
-                         const NoiseModel& noise) {
+                         const NoiseModel& noise, const std::vector<bool>& observed,
+                         const std::vector<Eigen::Vector3d>& velocity) {
   const double p = noise.position_sd_m * noise.position_sd_m;
   const Eigen::Matrix3d R =
       Eigen::Vector3d(p, p, noise.heading_sd_rad * noise.heading_sd_rad).asDiagonal();
@@ -50,9 +51,15 @@ TrackFilter::TrackFilter(const std::vector<Pose2>& path, const std::vector<doubl
       step.transition = transition(u);
       P = (step.transition * P * step.transition.transpose()).eval();
       P.diagonal() += rolled_m[k] * Eigen::Vector3d(noise.along_m2_pm, noise.across_m2_pm, noise.heading_rad2_pm);
-      P(2, 2) += noise.turn_rad2 * std::abs(u.theta_rad);
     }
-    const Eigen::Matrix3d S = P + R;
+    if (!observed.empty() && !observed[k]) {
+      step.gain.setZero();
+      step.whitener.setZero();
+      steps_.push_back(step);
+      continue;
+    }
+    Eigen::Matrix3d S = P + R;
+    if (!velocity.empty()) S += noise.clock_s * noise.clock_s * velocity[k] * velocity[k].transpose();
     const Eigen::LLT<Eigen::Matrix3d> llt(S);
     step.gain = llt.solve(P).transpose();
     step.whitener = llt.matrixL().solve(Eigen::Matrix3d::Identity());

@@ -15,7 +15,7 @@ struct NoiseModel {
   double across_m2_pm = 1e-9;       ///< sideways, m^2/m
   double position_sd_m = 3e-4;      ///< of one absolute position, with the encoder's rounding
   double heading_sd_rad = 3e-4;
-  double turn_rad2 = 0;             ///< further variance of heading per radian turned, rad^2/rad
+  double clock_s = 1e-4;            ///< scatter of the moments at which poses were taken
 };
 
 /// Errors of a track against a prediction, (along, across, heading) in the predicted robot's frame: 3 rows a sample.
@@ -30,7 +30,10 @@ Eigen::VectorXd track_error(const std::vector<Pose2>& predicted, const std::vect
 class TrackFilter {
  public:
   /// `path`: predicted poses; `rolled_m`: mean distance that the wheels rolled before each sample (same length, first 0).
-  TrackFilter(const std::vector<Pose2>& path, const std::vector<double>& rolled_m, const NoiseModel& noise);
+  /// `observed`: which samples the tracker really saw; empty: all. `velocity`: of the robot at each sample (along, across,
+  /// turning; m/s, rad/s), for the scatter of the clock; empty: none.
+  TrackFilter(const std::vector<Pose2>& path, const std::vector<double>& rolled_m, const NoiseModel& noise,
+              const std::vector<bool>& observed = {}, const std::vector<Eigen::Vector3d>& velocity = {});
 
   TrackColumns whiten(const TrackColumns& columns) const;
   /// Sum over samples of log det of the innovations' covariance.
