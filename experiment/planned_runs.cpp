@@ -1,8 +1,11 @@
 #include "experiment/planned_runs.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <tbb/parallel_for.h>
+
+#include "core/random.h"
 
 namespace umbsim {
 namespace {
@@ -38,11 +41,46 @@ void change_unit(std::vector<EncoderSample>& samples, double unit) {
   }
 }
 
+int periods(double duration_s, double rate_hz) { return int(std::ceil(duration_s * rate_hz)); }
+
+// The recorder runs as long as the course should take: a robot that was faster stands still until then.
+void wait_for_the_end(RecordedRun& run, const Scenario& s, Direction direction) {
+  const double rate_hz = s.encoders.rate_hz;
+  const int end = periods(Plan(s.course, direction).duration_s(), rate_hz) + periods(kRest_s, rate_hz);
+  const int stride = std::max(1, int(std::lround(rate_hz / s.truth.rate_hz)));
+  const int driven = int(run.encoders.size()) - 1;
+  if (driven >= end) return;
+  const Pose2 X_WB = run.truth.back().X_WB;
+  const bool track = s.truth.kind == "track";
+  if (!track || driven % stride != 0) run.truth.pop_back();  // it was there because the run ended
+  EncoderSample row = run.encoders.back();
+  for (int period = driven + 1; period <= end; ++period) {
+    row.time_s = period * (1 / rate_hz);
+    row.left_command_radps = row.right_command_radps = 0;
+    run.encoders.push_back(row);
+    if (period == end || (track && period % stride == 0)) run.truth.push_back({row.time_s, X_WB});
+  }
+}
+
+// The absolute poses as they are measured.
+void measure_poses(RecordedRun& run, const TruthChoice& truth, std::uint64_t seed, int number) {
+  RandomStream random(seed, "absolute pose", std::uint64_t(number));
+  for (TruthSample& sample : run.truth) {
+    sample.X_WB.x_m = random.normal(sample.X_WB.x_m, truth.position_sd_m);
+    sample.X_WB.y_m = random.normal(sample.X_WB.y_m, truth.position_sd_m);
+    sample.X_WB.theta_rad = random.normal(sample.X_WB.theta_rad, truth.heading_sd_rad);
+  }
+}
+
 void drive_planned_run(const Scenario& s, const RobotModel& nominal, RecordedRun& run, int number) {
   const RunSpec spec{run.id, run.direction == "cw" ? Direction::cw : Direction::ccw, false, number};
   OdometryParameters odometry = initial_odometry(s, nominal);
   odometry.ticks_per_revolution = rig_for(s, nominal, spec).encoders.ticks_per_revolution;
-  DrivenRun driven = drive_run(s, nominal, odometry, spec);
+  Scenario exact = s;
+  exact.truth.position_sd_m = exact.truth.heading_sd_rad = 0;
+  DrivenRun driven = drive_run(exact, nominal, odometry, spec);
+  wait_for_the_end(driven.run, s, spec.direction);
+  measure_poses(driven.run, s.truth, s.seed, number);
   change_unit(driven.run.encoders, s.encoders.ticks_per_revolution / odometry.ticks_per_revolution);
   run.has_commands = driven.run.has_commands;
   run.encoders = std::move(driven.run.encoders);

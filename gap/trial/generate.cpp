@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/text_file.h"
+#include "gap/trial/even_tables.h"
 #include "gap/trial/seal.h"
 
 namespace umbsim {
@@ -99,6 +100,7 @@ void write_case(const TrialFolder& folder, const TrialCase& c, const Platform& p
   write_file_whole(folder.answer_parts() / (c.name + ".json"), answer_json(c, driven.effects).dump());
   write_whole(folder.recordings() / c.name, [&](const fs::path& into) {
     write_recording(driven.recording, into);
+    write_even_tables(driven.recording, into);
     write_text_file(into / kTrialUrdf, robot_urdf(platform.robot));
     normalise_times(into);
   });

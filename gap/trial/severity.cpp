@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <boost/math/tools/toms748_solve.hpp>
 
@@ -101,10 +102,15 @@ SignalSize size_of(const SignalTrack& a, const SignalTrack* b) {
   return sum;
 }
 
+// Root mean square over the components that have noise.
 double ratio(const std::array<double, 3>& change, const std::array<double, 3>& noise) {
-  double sum = 0;
-  for (std::size_t c = 0; c < 3; ++c) sum += std::pow(change[c] / noise[c], 2) / 3;
-  return std::sqrt(sum);
+  double sum = 0, count = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (noise[c] == 0) continue;
+    sum += std::pow(change[c] / noise[c], 2);
+    ++count;
+  }
+  return count == 0 ? 0 : std::sqrt(sum / count);
 }
 
 // Looks for the amplitude of a severity and keeps the nearest that it has seen.
@@ -168,6 +174,13 @@ class AmplitudeSearch {
   double severity_ = std::numeric_limits<double>::infinity();
 };
 
+// Where `value` lies in `range`, logarithmically, there in the range that ends at `highest`.
+double same_place(double value, const Range& range, double highest) {
+  const double lowest = std::min(range.min, highest);
+  if (range.max == range.min) return highest;
+  return lowest * std::pow(highest / lowest, std::log(value / range.min) / std::log(range.max / range.min));
+}
+
 }  // namespace
 
 const char* name(Signal signal) {
@@ -226,17 +239,15 @@ ScaledEffect scale_effect(const DrawnEffect& drawn, double severity, const Range
                           const SeverityScale& scale, RandomStream& random) {
   // Drawn whether needed or not, so that what follows in the stream does not depend on it.
   const double plausible = drawn.plausible.min * std::pow(drawn.plausible.max / drawn.plausible.min, random.uniform());
-  std::vector<AmplitudeSearch> searches;
+  std::optional<AmplitudeSearch> best;
   for (const Signal signal : kSignals) {
-    AmplitudeSearch& search = searches.emplace_back(drawn, signal, severity, noise_level, scale);
-    if (search.highest() >= severity) return search.solved(severity);
+    AmplitudeSearch search(drawn, signal, severity, noise_level, scale);
+    if (!best || search.highest() > best->highest()) best.emplace(search);
+    if (best->highest() >= drawn_from.max) break;
   }
-  for (AmplitudeSearch& search : searches) {
-    if (search.highest() < kLeastSeverity) continue;
-    const double lowest = std::min(drawn_from.min, search.highest());
-    const double place = std::log(severity / drawn_from.min) / std::log(drawn_from.max / drawn_from.min);
-    search.want(lowest * std::pow(search.highest() / lowest, place));
-    return search.solved(severity);
+  if (best->highest() >= kLeastSeverity) {
+    if (best->highest() < drawn_from.max) best->want(same_place(severity, drawn_from, best->highest()));
+    return best->solved(severity);
   }
   ScaledEffect scaled{drawn.at(plausible), severity, 0, Signal::odometry, true};
   scaled.severity = scale.severity(scaled.effect, Signal::odometry) / noise_level;
