@@ -99,6 +99,7 @@ Effect payload_on(const RobotModel& nominal, double payload_kg) {
   set("payload_kg", payload_kg);
   set("ahead_m", nominal.base.com_m.x());
   set("left_m", nominal.base.com_m.y());
+  set("height_m", nominal.base.com_m.z());
   return effect;
 }
 

@@ -4,7 +4,7 @@
 
 namespace umbsim {
 
-/// The experimenter's own payload, over the centre of mass of the empty robot, so that it shifts no load sideways.
+/// The experimenter's own payload, at the centre of mass of the empty robot, so that it shifts no load sideways.
 Effect payload_on(const RobotModel& nominal, double payload_kg);
 
 /// Drives the runs that a recording's header plans and fills in what the robot leaves behind. Each run has a course of
