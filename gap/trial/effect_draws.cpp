@@ -151,7 +151,11 @@ const DrawLine kDraws[] = {
      }},
     {"encoder_sampling", [](Draw& d) { d.grow_from("interval_s", kControlPeriod_s); }},
     {"encoder_missed_counts", [](Draw& d) { d.grow_wheels("left_probability", "right_probability", false); }},
-    {"encoder_latency", [](Draw& d) { d.grow_from("seconds", kControlPeriod_s); }},
+    {"encoder_latency",
+     [](Draw& d) {
+       d.grow_from("seconds", kControlPeriod_s);
+       d.drawn.amplitude.back().grain = kControlPeriod_s;
+     }},
     {"tyre_compliance", [](Draw& d) { d.grow("metres_per_newton"); }},
     {"contact_patch", [](Draw& d) { d.grow("width_m"); }},
     {"tyre_creep",
@@ -211,9 +215,8 @@ const DrawLine kDraws[] = {
        d.drawn.effect.values.run = run.id;
        d.set("leg", double(1 + d.pick(4)));
        d.set("seconds_into_leg", d.random.uniform(0.15, 0.7) * leg_s);
-       d.set("direction_rad", d.sign() * M_PI / 2);
-       d.set("ahead_m", d.random.uniform(0.1, 0.3));
-       d.grow("impulse_newton_seconds");
+       // From the side, where the catalogue has it: direction and lever can be told from the impulse in no data.
+       d.grow("impulse_newton_seconds", d.sign());
      }},
     {"wheel_lift",
      [](Draw& d) {
@@ -227,7 +230,9 @@ const DrawLine kDraws[] = {
 Effect DrawnEffect::at(double a) const {
   Effect result = effect;
   for (const AmplitudeParameter& p : amplitude) {
-    result.values.numbers[p.index] = p.reciprocal ? p.weight / a : p.offset + p.weight * a;
+    double& value = result.values.numbers[p.index];
+    value = p.reciprocal ? p.weight / a : p.offset + p.weight * a;
+    if (p.grain > 0) value = p.grain * std::round(value / p.grain);
   }
   return result;
 }

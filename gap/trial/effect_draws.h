@@ -12,6 +12,7 @@ struct AmplitudeParameter {
   double weight = 1;
   double offset = 0;
   bool reciprocal = false;
+  double grain = 0;  ///< values are whole multiples of this; 0: any
 };
 
 /// An effect with everything drawn but its strength: which wheel, which sign, where, when, in which run.
