@@ -109,8 +109,8 @@ void add_shard(CLI::App& command, const Arguments& a) {
 
 void add_diagnosis(CLI::App& command, const Arguments& a) {
   command.add_option("--program", a->program,
-                     "Program to be tried, called as `PROGRAM gap diagnose RECORDING --out FOLDER [--exclude EFFECT]...`; "
-                     "default: this one");
+                     "Program to be tried, called as `PROGRAM gap diagnose RECORDING --out FOLDER "
+                     "[--exclude EFFECT]...`; default: this one");
   command.add_option("--cache", a->cache, "Cache folder that all diagnoses share; default: cache/ of the trial");
   command.add_flag("--retry", a->retry, "Diagnose again where the process failed before");
 }

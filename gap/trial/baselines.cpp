@@ -90,13 +90,15 @@ std::string umbmark_alone(const Recording& recording) {
 std::vector<Baseline> baselines(const std::vector<Verdict>& verdicts, const std::vector<std::string>& umbmark) {
   const std::string most = commonest(verdicts);
   std::vector<Baseline> all;
-  all.push_back(evaluate("commonest", "always naming the commonest effect", verdicts, [&](std::size_t) { return most; }));
+  all.push_back(
+      evaluate("commonest", "always naming the commonest effect", verdicts, [&](std::size_t) { return most; }));
   if (umbmark.size() == verdicts.size()) {
     all.push_back(evaluate("umbmark", "UMBmark alone", verdicts, [&](std::size_t i) { return umbmark[i]; }));
   } else {
     all.push_back({"umbmark", "UMBmark alone", 0, 0, 0, 0, "the recordings are not here"});
   }
-  const bool stated = std::any_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return !largest_drop(v).empty(); });
+  const bool stated = std::any_of(verdicts.begin(), verdicts.end(),
+                                  [](const Verdict& v) { return !largest_drop(v).empty(); });
   const char* text = "the single effect with the largest drop in squared error";
   if (stated) {
     all.push_back(evaluate("squared_error", text, verdicts, [&](std::size_t i) { return largest_drop(verdicts[i]); }));
