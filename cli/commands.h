@@ -11,5 +11,6 @@ void add_calibrate_command(CLI::App& app);
 void add_effects_command(CLI::App& app);
 void add_explain_command(CLI::App& app);
 void add_gap_command(CLI::App& app);
+void add_gap_trial_command(CLI::App& gap);  ///< below `gap`
 
 }  // namespace umbsim

@@ -138,6 +138,7 @@ void add_gap_command(CLI::App& app) {
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<recording>-diagnosis");
   command->add_flag("--force", a->force, "Replace a finished result");
   command->callback([a] { run_diagnose(*a); });
+  add_gap_trial_command(*group);
 }
 
 }  // namespace umbsim

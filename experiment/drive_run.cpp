@@ -10,9 +10,6 @@
 namespace umbsim {
 namespace {
 
-// Standstill with braked motors before the last absolute pose is taken.
-constexpr double kRest_s = 0.5;
-
 // Wheels of the run: the scatter of their radii (wear, temperature, load), the same for the whole run.
 void scatter_radii(Rig& rig, double sd) {
   if (sd == 0) return;

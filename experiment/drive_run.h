@@ -6,6 +6,9 @@
 
 namespace umbsim {
 
+/// Standstill with braked motors before the last absolute pose is taken.
+constexpr double kRest_s = 0.5;
+
 /// One run to be driven.
 struct RunSpec {
   std::string id;
