@@ -139,6 +139,7 @@ void add_gap_command(CLI::App& app) {
   command->add_flag("--force", a->force, "Replace a finished result");
   command->callback([a] { run_diagnose(*a); });
   add_gap_trial_command(*group);
+  add_gap_predict_command(*group);
 }
 
 }  // namespace umbsim
