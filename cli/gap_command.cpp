@@ -9,11 +9,14 @@
 
 #include "cli/commands.h"
 #include "core/text_file.h"
+#include "experiment/build_info.h"
 #include "experiment/replay.h"
 #include "experiment/result_json.h"
 #include "experiment/run_folder.h"
 #include "gap/check.h"
 #include "gap/diagnosis_json.h"
+#include "gap/tracks_json.h"
+#include "report/report.h"
 
 namespace umbsim {
 namespace {
@@ -95,6 +98,15 @@ std::string summary_text(const gap::Diagnosis& d) {
   return text;
 }
 
+// The page is the same bytes on every run: without the cost.
+std::string page(const gap::Model& model, const gap::Diagnosis& d, const Json& json) {
+  Json data{{"title", "Gap diagnosis: " + model.recording().title}, {"version", build_info().version}};
+  data["diagnosis"] = json;
+  data["diagnosis"].erase("cost");
+  data["runs"] = gap::tracks_json(model, d);
+  return render_gap_report(data);
+}
+
 void run_diagnose(const DiagnoseArguments& a) {
   const auto start = std::chrono::steady_clock::now();
   const std::string out = a.out.empty() ? "results/" + folder_name(a.recording) + "-diagnosis" : a.out;
@@ -117,11 +129,12 @@ void run_diagnose(const DiagnoseArguments& a) {
                   {"simulated_s", d.simulated_s}};
   write_folder(out, a.force, [&](const fs::path& into) {
     write_text_file(into / "diagnosis.json", json.dump(2) + "\n");
+    write_text_file(into / "report.html", page(model, d, json));
     write_text_file(into / "twin.yaml", twin_yaml(scenario, d));
     write_text_file(into / "provenance.json", provenance_json(a.recording, 0).dump(2) + "\n");
   });
-  fmt::print("{}: {}\n{}Result in {}: diagnosis.json, twin.yaml\n", folder_name(a.recording), recording.title,
-             summary_text(d), out);
+  fmt::print("{}: {}\n{}Result in {}: diagnosis.json, twin.yaml; open {}/report.html\n", folder_name(a.recording),
+             recording.title, summary_text(d), out, out);
 }
 
 }  // namespace

@@ -39,6 +39,8 @@ struct SegmentScore {
   double score = 0;  ///< log evidence that the prediction errs there
   double at_x_m = 0;
   double at_y_m = 0;
+  std::size_t first = 0;  ///< sample of the truth
+  std::size_t last = 0;   ///< one past the part's last sample
 };
 
 /// Held-out closure: every condition predicted with parameters fitted on the others.

@@ -6,7 +6,10 @@
 namespace umbsim::gap {
 namespace {
 
-// The motion of the plane (turn about the origin, then shift) that takes the track's positions nearest to the truth's.
+double distance_mm(const Pose2& a, const Pose2& b) { return 1000 * std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
+
+}  // namespace
+
 Pose2 best_motion(const RecordedRun& run, const std::vector<Pose2>& track) {
   const double n = double(track.size());
   Pose2 mean_track, mean_truth;
@@ -27,10 +30,6 @@ Pose2 best_motion(const RecordedRun& run, const std::vector<Pose2>& track) {
   const Pose2 turned = turn * mean_track;
   return {mean_truth.x_m - turned.x_m, mean_truth.y_m - turned.y_m, turn.theta_rad};
 }
-
-double distance_mm(const Pose2& a, const Pose2& b) { return 1000 * std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
-
-}  // namespace
 
 RunError prediction_error(const RecordedRun& run, const std::vector<Pose2>& predicted) {
   RunError e;

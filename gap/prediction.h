@@ -23,8 +23,12 @@ struct RunError {
   double frame_deg = 0;       ///< fitted turn of the tracker's frame
 };
 
-/// Errors of one run. The rigid motion of the whole predicted track that brings its positions nearest to the recorded
-/// ones (least squares) stands for the start pose and the frame's heading, which no prediction can know.
+/// The motion of the plane (turn about the origin, then shift) that takes a track's positions nearest to the recorded ones,
+/// by least squares.
+Pose2 best_motion(const RecordedRun& run, const std::vector<Pose2>& track);
+
+/// Errors of one run. The best motion of the whole predicted track stands for the start pose and the frame's heading,
+/// which no prediction can know.
 RunError prediction_error(const RecordedRun& run, const std::vector<Pose2>& predicted);
 
 /// Dead reckoning on the recorded ticks, at the times of the truth, from its first pose.

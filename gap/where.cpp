@@ -74,7 +74,11 @@ std::vector<SegmentScore> segment_scores(const Model& model, const Fit& fit) {
       double gain = 0.5 * b.dot(llt.solve(b));
       for (int c = 0; c < 3; ++c) gain -= std::log(llt.matrixLLT()(c, c));
       const Pose2& at = model.recording().runs[r].truth[part.middle].X_WB;
-      per_run[r].push_back({model.recording().runs[r].id, part.leg, part.name, gain, at.x_m, at.y_m});
+      const auto inside = [](const Eigen::Vector3d& rate) { return rate.norm() > 0; };
+      const auto first = std::find_if(part.rates.begin(), part.rates.end(), inside);
+      const auto last = std::find_if(part.rates.rbegin(), part.rates.rend(), inside);
+      per_run[r].push_back({model.recording().runs[r].id, part.leg, part.name, gain, at.x_m, at.y_m,
+                            std::size_t(first - part.rates.begin()), std::size_t(part.rates.rend() - last)});
     }
   });
   std::vector<SegmentScore> all;

@@ -63,4 +63,6 @@ std::string render_report(const nlohmann::json& data) { return page_of(data, web
 
 std::string render_sweep_report(const nlohmann::json& data) { return page_of(data, web::sweep_js); }
 
+std::string render_gap_report(const nlohmann::json& data) { return page_of(data, web::gap_js); }
+
 }  // namespace umbsim

@@ -15,4 +15,8 @@ std::string render_report(const nlohmann::json& data);
 /// and rows (experiment/sweep_result.h).
 std::string render_sweep_report(const nlohmann::json& data);
 
+/// The same for a gap diagnosis: `data` holds title, version, diagnosis (diagnosis.json without its cost) and runs
+/// (gap/tracks_json.h).
+std::string render_gap_report(const nlohmann::json& data);
+
 }  // namespace umbsim

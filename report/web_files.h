@@ -9,5 +9,6 @@ extern const std::string_view page_html;
 extern const std::string_view report_css;
 extern const std::string_view report_js;
 extern const std::string_view sweep_js;
+extern const std::string_view gap_js;
 
 }  // namespace umbsim::web

@@ -1,0 +1,77 @@
+#include "gap/tracks_json.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gap/prediction.h"
+
+namespace umbsim::gap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kPoses = 300;  // of a run, at most, go into the page
+
+double rounded(double value) { return std::round(value * 1e5) / 1e5; }
+
+std::vector<Pose2> moved(const RecordedRun& run, const std::vector<Pose2>& track) {
+  const Pose2 motion = best_motion(run, track);
+  std::vector<Pose2> result;
+  for (const Pose2& p : track) result.push_back(motion * p);
+  return result;
+}
+
+// Every `stride`th position and the last one.
+Json thinned(const std::vector<Pose2>& track, std::size_t stride) {
+  Json points = Json::array();
+  for (std::size_t k = 0; k < track.size(); ++k) {
+    if (k % stride != 0 && k + 1 != track.size()) continue;
+    points.push_back({rounded(track[k].x_m), rounded(track[k].y_m)});
+  }
+  return points;
+}
+
+// Recorded minus predicted end, in the frame of the recorded start.
+Json end_error(const RecordedRun& run, const std::vector<Pose2>& predicted) {
+  const Pose2 X_BW = inverse(run.truth.front().X_WB);
+  const Pose2 is = X_BW * run.truth.back().X_WB;
+  const Pose2 said = X_BW * predicted.back();
+  return {{"x_m", is.x_m - said.x_m}, {"y_m", is.y_m - said.y_m}, {"theta_rad", is.theta_rad - said.theta_rad}};
+}
+
+Json parts(const Diagnosis& d, const std::string& run, std::size_t stride) {
+  Json all = Json::array();
+  for (const SegmentScore& s : d.segments) {
+    if (s.run != run || s.score <= 0) continue;
+    all.push_back({{"leg", s.leg}, {"part", s.part}, {"score", s.score}, {"from", s.first / stride},
+                   {"to", (s.last + stride - 1) / stride}});
+  }
+  return all;
+}
+
+}  // namespace
+
+Json tracks_json(const Model& model, const Diagnosis& d) {
+  const Cause& cause = d.causes.front();
+  const bool twin = !cause.fit.families.empty();
+  Json runs = Json::array();
+  for (std::size_t r = 0; r < model.recording().runs.size(); ++r) {
+    const RecordedRun& run = model.recording().runs[r];
+    const std::size_t stride = 1 + run.truth.size() / kPoses;
+    std::vector<Pose2> recorded;
+    for (const TruthSample& t : run.truth) recorded.push_back(t.X_WB);
+    const std::vector<Pose2> before = moved(run, model.nominal_tracks()[r]);
+    Json item{{"id", run.id}, {"direction", run.direction}, {"recorded", thinned(recorded, stride)},
+              {"before", thinned(before, stride)}, {"parts", parts(d, run.id, stride)},
+              {"end", {{"before", end_error(run, before)}}}};
+    if (twin) {
+      const std::vector<Pose2> after = moved(run, cause.fit.tracks[r]);
+      item["after"] = thinned(after, stride);
+      item["end"]["after"] = end_error(run, after);
+    }
+    runs.push_back(std::move(item));
+  }
+  return runs;
+}
+
+}  // namespace umbsim::gap

@@ -1,0 +1,148 @@
+// The whole diagnosis on small simulated campaigns whose effect is known.
+#include "gap/diagnose.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/global_control.h>
+
+#include "gap/check.h"
+#include "gap/diagnosis_json.h"
+#include "tests/gap/recordings.h"
+
+namespace umbsim::gap {
+namespace {
+
+using testing::campaign;
+using testing::effect;
+
+/// A recording with what is needed to diagnose it, kept together: they refer to each other.
+struct Patient {
+  explicit Patient(Recording r)
+      : recording(std::move(r)),
+        replay(scenario_of(recording, "."), recording),
+        model(recording, testing::simulator(replay), Scatter{}) {}
+  Diagnosis diagnosed(const std::set<std::string>& excluded = {}) const {
+    return diagnose(model, excluded, Thresholds{}, [](const std::string&) {});
+  }
+
+  Recording recording;
+  Replay replay;
+  Model model;
+};
+
+std::string text(const Diagnosis& d) {
+  std::string all = fmt::format("detected {}, {}, set {}", d.detected, d.stage, fmt::join(d.set, " "));
+  for (const Cause& c : d.causes) {
+    if (c.probability < 0.001) continue;
+    all += fmt::format("\n  {:.3f} {}", c.probability, c.name);
+    for (const ParameterEstimate& e : parameter_estimates(c.fit, d.overdispersion)) {
+      all += fmt::format(" {} {:.5g} [{:.5g} {:.5g}]", e.parameter, e.value, e.ci95[0], e.ci95[1]);
+    }
+  }
+  return all;
+}
+
+/// A good answer is the true value within its own interval, or within 15 % of it.
+void expect_parameter(const Diagnosis& d, const std::string& parameter, double truth) {
+  for (const ParameterEstimate& e : parameter_estimates(d.causes.front().fit, d.overdispersion)) {
+    if (e.parameter != parameter) continue;
+    const bool covered = e.ci95[0] <= truth && truth <= e.ci95[1];
+    EXPECT_TRUE(covered || std::abs(e.value - truth) < 0.15 * std::abs(truth))
+        << parameter << " " << e.value << " [" << e.ci95[0] << ", " << e.ci95[1] << "], true " << truth;
+    return;
+  }
+  ADD_FAILURE() << parameter << " was not estimated";
+}
+
+bool holds(const std::vector<std::string>& set, const std::string& name) {
+  return std::find(set.begin(), set.end(), name) != set.end();
+}
+
+TEST(Diagnose, NothingWrongIsNone) {
+  const Patient p(campaign({}, 11));
+  EXPECT_TRUE(check_recording(p.recording, ".").empty());
+  const Diagnosis d = p.diagnosed();
+  std::cout << text(d) << "\n";
+  EXPECT_FALSE(d.detected);
+  EXPECT_EQ(d.causes.front().name, "none");
+  EXPECT_TRUE(holds(d.set, "none"));
+  EXPECT_FALSE(d.closure.known);
+  const auto json = diagnosis_json(d);
+  EXPECT_TRUE(json["causes"][0]["effects"].contains("none"));
+  EXPECT_EQ(json["closure"]["note"], "no gap to close");
+}
+
+TEST(Diagnose, UnequalWheels) {
+  constexpr double kTruth = 0.002;
+  const Patient p(campaign({effect("wheel_radius_difference", {{"relative", kTruth}})}, 12));
+  const Diagnosis d = p.diagnosed();
+  std::cout << text(d) << "\n";
+  EXPECT_TRUE(d.detected);
+  EXPECT_EQ(d.causes.front().name, "wheel_radius_difference");
+  EXPECT_EQ(d.stage, "geometry");
+  expect_parameter(d, "relative", kTruth);
+  ASSERT_TRUE(d.closure.known);
+  EXPECT_GT(d.closure.fraction, 0.9);
+  EXPECT_GT(d.closure.before_mm, 5 * d.closure.after_mm);
+
+  // Without it in the catalogue nothing may be found that is not said to be something else or unknown.
+  const Diagnosis without = p.diagnosed({"wheel_radius_difference"});
+  std::cout << "without: " << text(without) << "\n";
+  EXPECT_TRUE(without.detected);
+  for (const Cause& c : without.causes) EXPECT_EQ(c.name.find("wheel_radius_difference"), std::string::npos);
+  EXPECT_NE(without.causes.front().name, "none");
+
+  // How many threads there are is nobody's business.
+  const std::string one = [&] {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 1);
+    const Patient again(p.recording);
+    return diagnosis_json(again.diagnosed()).dump();
+  }();
+  EXPECT_EQ(diagnosis_json(d).dump(), one);
+}
+
+TEST(Diagnose, Wheelbase) {
+  constexpr double kTruth = 0.01;
+  const Patient p(campaign({effect("wheelbase", {{"relative", kTruth}})}, 13));
+  const Diagnosis d = p.diagnosed();
+  std::cout << text(d) << "\n";
+  EXPECT_EQ(d.causes.front().name, "wheelbase");
+  EXPECT_EQ(d.pattern, "turns");
+  expect_parameter(d, "relative", kTruth);
+}
+
+TEST(Diagnose, ACableOnTheFloorAndItsPlace) {
+  constexpr double kX_m = 1.1, kY_m = -0.17, kHeight_m = 0.006;
+  const Patient p(campaign({effect("bump", {{"height_m", kHeight_m}, {"x_m", kX_m}, {"y_m", kY_m}})}, 14));
+  const Diagnosis d = p.diagnosed();
+  std::cout << text(d) << "\n";
+  EXPECT_EQ(d.causes.front().name, "bump");
+  EXPECT_EQ(d.stage, "floor");
+  expect_parameter(d, "height_m", kHeight_m);
+  ASSERT_TRUE(d.has_place);
+  constexpr double kNear_m = 0.1;  // bar of the project's table of figures
+  EXPECT_LT(std::hypot(d.place_m[0] - kX_m, d.place_m[1] - kY_m), kNear_m);
+
+  const Diagnosis without = p.diagnosed({"bump"});
+  std::cout << "without: " << text(without) << "\n";
+  EXPECT_TRUE(without.detected);
+  for (const Cause& c : without.causes) EXPECT_EQ(c.name.find("bump"), std::string::npos);
+}
+
+TEST(Diagnose, ProbabilitiesSumToOne) {
+  Recording few = campaign({effect("wheelbase", {{"relative", 0.01}})}, 15, 1);
+  const Diagnosis d = Patient(few).diagnosed();
+  double sum = 0;
+  for (const Cause& c : d.causes) sum += c.probability;
+  EXPECT_NEAR(sum, 1, 1e-9);
+  EXPECT_TRUE(std::is_sorted(d.causes.begin(), d.causes.end(),
+                             [](const Cause& a, const Cause& b) { return a.score > b.score; }));
+}
+
+}  // namespace
+}  // namespace umbsim::gap

@@ -1,0 +1,128 @@
+// What run_experiment drove is driven again from its ticks: the truth must come out.
+#include "experiment/replay.h"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include <fmt/format.h>
+
+#include "tests/gap/recordings.h"
+
+namespace umbsim {
+namespace {
+
+using testing::effect;
+using testing::squares;
+
+double largest_distance_m(const std::vector<Pose2>& track, const RecordedRun& run) {
+  double largest = 0;
+  for (std::size_t k = 0; k < track.size(); ++k) {
+    const Pose2& t = run.truth[k].X_WB;
+    largest = std::max(largest, std::hypot(track[k].x_m - t.x_m, track[k].y_m - t.y_m));
+  }
+  return largest;
+}
+
+/// Largest distances over all runs from the truth, replayed with and without the effects that it was driven under.
+struct Distances {
+  double with_m = 0;
+  double without_m = 0;
+};
+
+Distances distances(const Scenario& scenario) {
+  const Recording recording = run_experiment(scenario, 0).recording;
+  Distances d;
+  const Replay replay(scenario_of(recording, "."), recording);
+  for (std::size_t r = 0; r < recording.runs.size(); ++r) {
+    d.with_m = std::max(d.with_m, largest_distance_m(replay.poses(r, scenario.effects), recording.runs[r]));
+    d.without_m = std::max(d.without_m, largest_distance_m(replay.poses(r, {}), recording.runs[r]));
+  }
+  return d;
+}
+
+struct Case {
+  const char* name;
+  std::vector<Effect> effects;
+  double ticks_per_revolution = 1e6;
+  double allowed_m = 0.5e-3;  ///< 1/16000 of an 8 m square: the replay ramps speeds where the driver stepped them
+};
+
+class ReplayOfTicks : public ::testing::TestWithParam<Case> {};
+
+TEST_P(ReplayOfTicks, EndsWhereTheRobotWas) {
+  Scenario s = squares(2, 1);
+  s.encoders.ticks_per_revolution = GetParam().ticks_per_revolution;
+  s.effects = GetParam().effects;
+  const Distances d = distances(s);
+  std::cout << fmt::format("{}: {:.3f} mm with, {:.3f} mm without\n", GetParam().name, 1000 * d.with_m, 1000 * d.without_m);
+  EXPECT_LT(d.with_m, GetParam().allowed_m);
+  // Where there is an effect, the replay without it must miss: the test can fail.
+  if (!s.effects.empty()) EXPECT_GT(d.without_m, 5 * d.with_m);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Effects, ReplayOfTicks,
+    ::testing::Values(
+        Case{"nominal", {}},
+        Case{"wheel_radius_difference", {effect("wheel_radius_difference", {{"relative", 0.003}})}},
+        Case{"wheelbase", {effect("wheelbase", {{"relative", 0.01}})}},
+        Case{"wheel_eccentricity", {effect("wheel_eccentricity", {{"right_m", 1e-3}, {"right_phase_rad", 1}})}},
+        Case{"carpet_drift", {effect("carpet_drift", {{"metres_per_metre", 0.004}, {"direction_rad", 0.8}})}},
+        Case{"bump", {effect("bump", {{"height_m", 0.006}, {"x_m", 1}, {"y_m", -0.17}})}},
+        Case{"tyre_compliance", {effect("tyre_compliance", {{"metres_per_newton", 2e-6}})}},
+        Case{"push", {effect("push", {{"leg", 2}, {"seconds_into_leg", 3}, {"impulse_newton_seconds", 30}}, "cw-1")}},
+        Case{"encoder_missed_counts", {effect("encoder_missed_counts", {{"right_probability", 0.004}})}},
+        Case{"encoder_latency", {effect("encoder_latency", {{"seconds", 0.1}})}, 1e6, 1e-3}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+// A real encoder's staircase must not shake the robot off its path.
+TEST(ReplayOfCoarseTicks, LosesLessThanATick) {
+  Scenario s = squares(2, 1);
+  s.encoders.ticks_per_revolution = 2000;
+  const double tick_m = 2 * M_PI * 0.075 / 2000;
+  const Distances d = distances(s);
+  // A tick of difference between the wheels turns the robot by tick / wheelbase, seen over the 2.8 m of the diagonal.
+  EXPECT_LT(d.with_m, tick_m / 0.340 * 2.83);
+}
+
+TEST(ReplayOfCommands, CountsWhatTheEncodersCounted) {
+  for (const auto& effects : {std::vector<Effect>{}, {effect("encoder_missed_counts", {{"left_probability", 0.01}})},
+                              {effect("encoder_latency", {{"seconds", 0.1}})},
+                              {effect("motor_response", {{"lag_s", 0.08}, {"gain_asymmetry", 0.02}})}}) {
+    SCOPED_TRACE(effects.empty() ? "nominal" : effects[0].info->name);
+    Scenario s = squares(2, 1);
+    s.encoders.ticks_per_revolution = 1e6;
+    s.effects = effects;
+    const Recording recording = run_experiment(s, 0).recording;
+    const Replay replay(scenario_of(recording, "."), recording);
+    for (std::size_t r = 0; r < recording.runs.size(); ++r) {
+      const std::vector<std::array<double, 2>> counts = replay.counts(r, effects);
+      const std::vector<EncoderSample>& samples = recording.runs[r].encoders;
+      ASSERT_EQ(counts.size(), samples.size());
+      double worst_rad = 0, way_rad = 0;
+      for (std::size_t i = 0; i < counts.size(); ++i) {
+        const double counted[] = {double(samples[i].left_ticks) * 2 * M_PI / 1e6,
+                                  double(samples[i].right_ticks) * 2 * M_PI / 1e6};
+        for (std::size_t w = 0; w < 2; ++w) worst_rad = std::max(worst_rad, std::abs(counts[i][w] - counted[w]));
+        way_rad = std::max(way_rad, std::abs(counted[0]));
+      }
+      std::cout << fmt::format("{} {}: {:.5f} of {:.1f} rad\n", effects.empty() ? "nominal" : effects[0].info->name,
+                               recording.runs[r].id, worst_rad, way_rad);
+      // A command holds for one period of 20 ms and is recorded at one of its ends.
+      EXPECT_LT(worst_rad, 0.02 * 0.3 / 0.075 * 1.5);
+    }
+  }
+}
+
+TEST(Replay, RecordedDimensionsGoBeforeTheRobotFile) {
+  Recording recording = run_experiment(squares(0.5, 1), 0).recording;
+  recording.robot.wheel_radius_m *= 1.01;
+  recording.robot.wheelbase_m *= 0.98;
+  const Replay replay(scenario_of(recording, "."), recording);
+  EXPECT_NEAR(replay.nominal().wheels[0].radius_m, 1.01 * 0.075, 1e-12);
+  EXPECT_NEAR(replay.nominal().wheelbase_m(), 0.98 * 0.340, 1e-12);
+}
+
+}  // namespace
+}  // namespace umbsim

@@ -1,0 +1,65 @@
+// Recordings that another physics engine made: the names must be right; parameters and places are printed.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "gap/check.h"
+#include "gap/diagnosis_json.h"
+#include "tests/gap/recordings.h"
+
+namespace umbsim::gap {
+namespace {
+
+struct Labelled {
+  const char* folder;
+  const char* effect;     ///< "none" for no effect
+  const char* parameter = "";
+  double value = 0;
+};
+
+class SecondEngine : public ::testing::TestWithParam<Labelled> {};
+
+TEST_P(SecondEngine, TheCauseIsNamed) {
+  const Labelled& label = GetParam();
+  const std::filesystem::path folder =
+      std::filesystem::path(UMBSIM_SHARED_DIR) / "recordings/second-engine" / label.folder;
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  const Recording recording = read_recording(folder);
+  check_recording(recording, folder.string());
+  const Replay replay(scenario_of(recording, folder.string()), recording);
+  const Model model(recording, testing::simulator(replay), Scatter{});
+  const Diagnosis d = diagnose(model, {}, Thresholds{}, [](const std::string&) {});
+  const Cause& first = d.causes.front();
+  std::string said = fmt::format("{}: {} (set {})", label.folder, first.name, fmt::join(d.set, ", "));
+  double error = 0;
+  for (const ParameterEstimate& e : parameter_estimates(first.fit, d.overdispersion)) {
+    if (e.parameter != label.parameter) continue;
+    error = std::abs(e.value - label.value) / std::abs(label.value);
+    said += fmt::format(", {} {:.4g} [{:.4g}, {:.4g}], true {:.4g}: off by {:.1f} %", e.parameter, e.value, e.ci95[0],
+                        e.ci95[1], label.value, 100 * error);
+  }
+  if (d.has_place) said += fmt::format(", at ({:.2f}, {:.2f}) m", d.place_m[0], d.place_m[1]);
+  if (d.closure.known) said += fmt::format(", closure {:.3f}", d.closure.fraction);
+  std::cout << said << "\n";
+  EXPECT_EQ(first.name, label.effect);
+  EXPECT_EQ(d.detected, std::string(label.effect) != "none");
+  constexpr double kOtherEngine = 0.7;  // bar of the project's table of figures
+  if (d.detected) EXPECT_GT(d.closure.fraction, kOtherEngine);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Case, SecondEngine,
+    ::testing::Values(Labelled{"case-01", "none"}, Labelled{"case-02", "wheel_radius_difference", "relative", 0.002},
+                      Labelled{"case-03", "wheelbase", "relative", 0.01},
+                      Labelled{"case-05", "carpet_drift", "metres_per_metre", 0.004},
+                      Labelled{"case-06", "bump", "height_m", 0.006},
+                      Labelled{"case-10", "push", "impulse_newton_seconds", 22},
+                      Labelled{"case-11", "wheel_eccentricity", "right_m", 0.0015}, Labelled{"case-14", "none"}),
+    [](const auto& test) { return std::string(test.param.folder).replace(4, 1, "_"); });
+
+}  // namespace
+}  // namespace umbsim::gap
