@@ -12,15 +12,19 @@ const isNamed = (cause) => !["none", "unknown"].includes(gapNames(cause)[0]);
 
 // 0.00201 [0.00195, 0.00207], to the digits that the interval leaves.
 function gapValue({value, ci95, unit}) {
+  const withUnit = unit && unit !== "1" ? `\u00a0${escapeHtml(unit)}` : "";
+  if (ci95[0] === ci95[1]) return `${minus(String(Number(value.toPrecision(4))))}${withUnit}`;
   const width = Math.max(Math.abs(ci95[1] - ci95[0]), Math.abs(value) * 1e-4, 1e-12);
   const decimals = Math.max(0, Math.min(9, 1 - Math.floor(Math.log10(width))));
-  const known = ci95[1] > ci95[0] ? ` <span class="muted">[${fixed(ci95[0], decimals)}, ${fixed(ci95[1], decimals)}]</span>` : "";
-  return `${fixed(value, decimals)}${known}${unit && unit !== "1" ? `\u00a0${escapeHtml(unit)}` : ""}`;
+  return `${fixed(value, decimals)} <span class="muted">[${fixed(ci95[0], decimals)}, ${fixed(ci95[1], decimals)}]</span>${withUnit}`;
 }
+
+// The unit stands behind the value.
+const gapParameterName = (name) => gapWords(name.replace(/_(m|rad|s|nm|mps|radps)$/, ""));
 
 function gapParameters(cause) {
   return Object.values(cause.effects).flatMap((parameters) => Object.entries(parameters).map(
-      ([name, p]) => `${escapeHtml(gapWords(name))} ${typeof p === "object" ? gapValue(p) : escapeHtml(p)}`)).join("<br>");
+      ([name, p]) => `${escapeHtml(gapParameterName(name))} ${typeof p === "object" ? gapValue(p) : escapeHtml(p)}`)).join("<br>");
 }
 
 const percent = (p) => (p >= 0.9995 ? "100" : p >= 0.0995 ? fixed(100 * p, 0) : p >= 0.0005 ? fixed(100 * p, 1) : "&lt;0.1") + "\u00a0%";

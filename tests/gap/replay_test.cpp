@@ -58,7 +58,9 @@ TEST_P(ReplayOfTicks, EndsWhereTheRobotWas) {
   std::cout << fmt::format("{}: {:.3f} mm with, {:.3f} mm without\n", GetParam().name, 1000 * d.with_m, 1000 * d.without_m);
   EXPECT_LT(d.with_m, GetParam().allowed_m);
   // Where there is an effect, the replay without it must miss: the test can fail.
-  if (!s.effects.empty()) EXPECT_GT(d.without_m, 5 * d.with_m);
+  if (!s.effects.empty()) {
+    EXPECT_GT(d.without_m, 5 * d.with_m);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -48,7 +48,9 @@ TEST_P(SecondEngine, TheCauseIsNamed) {
   EXPECT_EQ(first.name, label.effect);
   EXPECT_EQ(d.detected, std::string(label.effect) != "none");
   constexpr double kOtherEngine = 0.7;  // bar of the project's table of figures
-  if (d.detected) EXPECT_GT(d.closure.fraction, kOtherEngine);
+  if (d.detected) {
+    EXPECT_GT(d.closure.fraction, kOtherEngine);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include <Eigen/Cholesky>
+
 #include "core/random.h"
 
 namespace umbsim::gap {

@@ -68,6 +68,16 @@ TEST(Report, EveryWebFileIsInside) {
   }
 }
 
+TEST(Report, EveryWebFileOfTheGapPageIsInside) {
+  const std::string page = render_gap_report(json::object());
+  for (const char* part : {"const mmUnit", "class Plot", "function setupGapTracks", "function gapWhichHtml",
+                           "function buildGapPage", "document.body.dataset.drawn"}) {
+    EXPECT_EQ(count(page, part), 1u) << part;
+  }
+  EXPECT_FALSE(std::regex_search(page, std::regex(R"((src|href)\s*=)")));
+  EXPECT_LT(page.size(), kMaxEmptyPageBytes);
+}
+
 TEST(Report, IsSmall) { EXPECT_LT(render_report(json::object()).size(), kMaxEmptyPageBytes); }
 
 TEST(Report, InvalidUtf8IsReplacedNotFatal) { EXPECT_NO_THROW(render_report({{"title", "bad \xFF byte"}})); }
