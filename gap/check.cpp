@@ -99,10 +99,14 @@ void check_gaps(const std::string& directory, const RecordedRun& run) {
                        "leave it out.",
                        run.truth[worst].time_s, run.truth[worst + 1].time_s, usual));
   }
+  // A jump between two quiet steps; headings in degrees are large at many steps in a row.
+  const auto turned = [&](std::size_t i) {
+    return i > 0 && i < run.truth.size() ? run.truth[i].X_WB.theta_rad - run.truth[i - 1].X_WB.theta_rad : 0.0;
+  };
   for (std::size_t i = 1; i < run.truth.size(); ++i) {
-    const double turned = run.truth[i].X_WB.theta_rad - run.truth[i - 1].X_WB.theta_rad;
-    if (std::abs(turned) > 3.5 && steps[i - 1] < 1) {
-      refuse(directory, run, fmt::format("theta_rad jumps by {:.2f} at {} s: unwrap it, or give it in radians.", turned,
+    const bool alone = std::abs(turned(i - 1)) < 1.5 && std::abs(turned(i + 1)) < 1.5;
+    if (std::abs(turned(i)) > 3.5 && steps[i - 1] < 1 && alone) {
+      refuse(directory, run, fmt::format("theta_rad jumps by {:.2f} at {} s: unwrap it, or give it in radians.", turned(i),
                                          run.truth[i].time_s));
     }
   }
@@ -159,14 +163,14 @@ void check_scale(const std::string& directory, const RecordedRun& run, const Rec
     if (turns > 1.6 || turns < 0.6) {
       refuse(directory, run, fmt::format("the truth turns {:.3g} times as much as the wheels: check wheelbase_m and theta_rad.", turns));
     }
-    // Against each other: the signs.
-    if (t.turn_product < 0) {
-      const bool backwards = t.straight_product < 0;
-      refuse(directory, run,
-             backwards ? "wheels run backwards and turns have the wrong sign: left and right are swapped and both count "
-                         "backwards; exchange the columns and negate them."
-                       : "turns have the wrong sign: left_ticks and right_ticks are swapped; exchange the columns (or "
-                         "theta_rad grows clockwise).");
+    // Against each other: the signs. Negating both wheels turns both products around, exchanging them only the turns.
+    if (t.turn_product < 0 && t.straight_product >= 0) {
+      refuse(directory, run, "turns have the wrong sign: left_ticks and right_ticks are swapped; exchange the columns (or "
+                             "theta_rad grows clockwise).");
+    }
+    if (t.turn_product > 0 && t.straight_product < 0) {
+      refuse(directory, run, "wheels run backwards though the turns are right: left and right are swapped and both count "
+                             "backwards; exchange the columns and negate them.");
     }
   }
   if (t.straight_product < 0) {
@@ -199,6 +203,7 @@ std::vector<std::string> check_recording(const Recording& recording, const std::
     }
     check_jumps(directory, run, recording.robot);
     check_gaps(directory, run);
+    // Two end points of a closed path say nothing of its length.
     if (recording.truth_kind == "track") check_scale(directory, run, recording.robot);
   }
   std::vector<std::string> limits;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gap/prediction.h"
+#include <Eigen/Cholesky>
 
 namespace umbsim::gap {
 namespace {
@@ -14,8 +14,14 @@ constexpr std::size_t kPoses = 300;  // of a run, at most, go into the page
 
 double rounded(double value) { return std::round(value * 1e5) / 1e5; }
 
-std::vector<Pose2> moved(const RecordedRun& run, const std::vector<Pose2>& track) {
-  const Pose2 motion = best_motion(run, track);
+// The prediction begun where it explains the recorded run best.
+std::vector<Pose2> begun_right(const Model& model, std::size_t r, const std::vector<Pose2>& track) {
+  std::vector<Pose2> truth;
+  for (const TruthSample& t : model.recording().runs[r].truth) truth.push_back(t.X_WB);
+  const TrackFilter& filter = model.filter(r);
+  const auto products = filter.kick_products(filter.whiten(track_error(track, truth)));
+  const Eigen::Vector3d start = products.with_itself[0].ldlt().solve(products.with_column[0]);
+  const Pose2 motion = track[0] * Pose2{start[0], start[1], start[2]} * inverse(track[0]);
   std::vector<Pose2> result;
   for (const Pose2& p : track) result.push_back(motion * p);
   return result;
@@ -60,12 +66,12 @@ Json tracks_json(const Model& model, const Diagnosis& d) {
     const std::size_t stride = 1 + run.truth.size() / kPoses;
     std::vector<Pose2> recorded;
     for (const TruthSample& t : run.truth) recorded.push_back(t.X_WB);
-    const std::vector<Pose2> before = moved(run, model.nominal_tracks()[r]);
+    const std::vector<Pose2> before = begun_right(model, r, model.nominal_tracks()[r]);
     Json item{{"id", run.id}, {"direction", run.direction}, {"recorded", thinned(recorded, stride)},
               {"before", thinned(before, stride)}, {"parts", parts(d, run.id, stride)},
               {"end", {{"before", end_error(run, before)}}}};
     if (twin) {
-      const std::vector<Pose2> after = moved(run, cause.fit.tracks[r]);
+      const std::vector<Pose2> after = begun_right(model, r, cause.fit.tracks[r]);
       item["after"] = thinned(after, stride);
       item["end"]["after"] = end_error(run, after);
     }

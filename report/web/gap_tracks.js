@@ -24,8 +24,9 @@ const gapShare = (data, part) => part.score / Math.max(...data.runs.flatMap((r) 
 function gapRunSvg(data, run, k, width) {
   const before = gapShown(run, run.before, k);
   const after = run.after ? gapShown(run, run.after, k) : [];
-  const b = gapBounds([...run.recorded, ...before, ...after]);
-  const half = gapSpan(b) * 0.55;
+  const place = data.diagnosis.where.place_m;
+  const b = gapBounds([...run.recorded, ...before, ...after, ...(place ? [place] : [])]);
+  const half = gapSpan(b) * 0.58;
   const [cx, cy] = [(b[0] + b[1]) / 2, (b[2] + b[3]) / 2];
   const plot = Plot.square({width, x: [cx - half, cx + half], y: [cy - half, cy + half], xLabel: "x (m)", yLabel: "y (m)"});
   for (const part of run.parts) {
@@ -38,7 +39,6 @@ function gapRunSvg(data, run, k, width) {
   plot.path(before, "odometry");
   plot.path(run.recorded, `truth ${colourClass(run.direction)}`);
   if (after.length) plot.path(after, "twin");
-  const place = data.diagnosis.where.place_m;
   if (place) plot.circle(place, 11 / plot.scale, "place");
   const [from, end] = [run.recorded[0], run.recorded[run.recorded.length - 1]];
   plot.add(`<circle class="fix" cx="${px(plot.px(from[0]))}" cy="${px(plot.py(from[1]))}" r="3.6"/>`);
