@@ -12,7 +12,6 @@ void add_effects_command(CLI::App& app);
 void add_explain_command(CLI::App& app);
 void add_gap_command(CLI::App& app);
 void add_gap_trial_command(CLI::App& gap);  ///< below `gap`
-
 void add_gap_predict_command(CLI::App& group);  ///< below `gap`
 
 }  // namespace umbsim
