@@ -41,13 +41,22 @@ void join_latches(std::vector<double>& counts, const std::vector<EncoderSample>&
   }
 }
 
-// Rotation that wheel speeds make up to each sample. Set-points ramp from one to the next.
-std::vector<double> commanded(const std::vector<EncoderSample>& s, const std::vector<double>& late) {
+// Rotation that wheel speeds make up to each sample. Set-points ramp from one to the next; a time step moves with the
+// speed at its end, so that with `steps` a period the ramp is a staircase that runs ahead by half a step.
+std::vector<double> commanded(const std::vector<EncoderSample>& s, const std::vector<double>& late, int steps) {
+  const double before = (steps - 1) / (2.0 * steps);
   std::vector<double> angle(s.size());
   for (std::size_t i = 1; i < s.size(); ++i) {
-    angle[i] = angle[i - 1] + (late[i - 1] + late[i]) / 2 * (s[i].time_s - s[i - 1].time_s);
+    angle[i] = angle[i - 1] + (before * late[i - 1] + (1 - before) * late[i]) * (s[i].time_s - s[i - 1].time_s);
   }
   return angle;
+}
+
+// The same speeds half a time step later, so that the staircase turns the shaft as far as it did.
+std::vector<double> half_a_step_later(const std::vector<double>& speed, int steps) {
+  std::vector<double> later = speed;
+  for (std::size_t i = 1; i < speed.size(); ++i) later[i] += (speed[i - 1] - speed[i]) / (2.0 * steps);
+  return later;
 }
 
 // A wheel's commands, `lag_s` late.
@@ -76,13 +85,13 @@ std::vector<double> averaged(const std::vector<double>& x, std::size_t half) {
 }
 
 // How late the counts follow the commands, by least squares on speed, commanded angle and way.
-double measured_lag(const RecordedRun& run, double radians_per_tick) {
+double measured_lag(const RecordedRun& run, double radians_per_tick, int steps) {
   if (!run.has_commands) return 0;
   double lag = 0;
   for (int w = 0; w < 2; ++w) {
     const auto command = w == 0 ? &EncoderSample::left_command_radps : &EncoderSample::right_command_radps;
     const auto ticks = w == 0 ? &EncoderSample::left_ticks : &EncoderSample::right_ticks;
-    const std::vector<double> asked = commanded(run.encoders, obeyed(run.encoders, command, 0));
+    const std::vector<double> asked = commanded(run.encoders, obeyed(run.encoders, command, 0), steps);
     Eigen::Matrix4d A = Eigen::Matrix4d::Identity() * 1e-12;
     Eigen::Vector4d b = Eigen::Vector4d::Zero();
     double way = 0;
@@ -109,7 +118,7 @@ std::vector<double> speeds(const std::vector<double>& angle, const std::vector<E
 
 // Speeds of a shaft, from what arrived of its rotation: late, latched, with counts missing in the mean.
 std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec, const EncoderFaults& faults,
-                          bool left, double lag_s) {
+                          bool left, double lag_s, int steps) {
   const auto ticks = left ? &EncoderSample::left_ticks : &EncoderSample::right_ticks;
   const std::vector<EncoderSample>& s = run.encoders;
   const double k = 2 * M_PI / spec.ticks_per_revolution;
@@ -136,14 +145,14 @@ std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec
     const double offset = angle.front();
     for (double& a : angle) a -= offset;
   }
-  if (!run.has_commands) return speeds(smoothed(std::move(angle)), s);
+  if (!run.has_commands) return half_a_step_later(speeds(smoothed(std::move(angle)), s), steps);
   // The commands say finely what the counts say coarsely: the motor follows them, and drifts from them slowly.
   const auto command = left ? &EncoderSample::left_command_radps : &EncoderSample::right_command_radps;
   const double late_s = std::max(0.0, lag_s - spec.latency_s - spec.sampling_interval_s / 2);
   const std::vector<double> asked = obeyed(s, command, late_s);
-  const std::vector<double> turned = commanded(s, asked);
+  const std::vector<double> turned = commanded(s, asked, steps);
   for (std::size_t i = 0; i < s.size(); ++i) angle[i] -= turned[i];
-  std::vector<double> speed = speeds(averaged(averaged(angle, kDriftHalf), kDriftHalf), s);
+  std::vector<double> speed = half_a_step_later(speeds(averaged(averaged(angle, kDriftHalf), kDriftHalf), s), steps);
   for (std::size_t i = 0; i < s.size(); ++i) speed[i] += asked[i];
   return speed;
 }
@@ -237,12 +246,13 @@ Replay::Replay(const Scenario& scenario, const Recording& recording)
   apply(WheelRadiusScale{recording.robot.wheel_radius_m / nominal_.wheels[0].radius_m - 1}, believed);
   apply(Wheelbase{recording.robot.wheelbase_m / nominal_.wheelbase_m() - 1}, believed);
   nominal_ = believed.robot;
+  steps_ = std::max(1, int(std::ceil(1 / recording.encoder_rate_hz / scenario.physics.step_s - 1e-9)));
   scenario_.encoders.ticks_per_revolution = recording.robot.ticks_per_revolution;
   for (const RecordedRun& run : recording.runs) {
     stretches_.push_back(umbsim::stretches(run, recording.robot));
     const bool track = recording.truth_kind == "track" && run.truth.size() > 20;
     start_.push_back(track ? start_of(run, recording.robot) : run.truth.front().X_WB);
-    lag_s_.push_back(measured_lag(run, 2 * M_PI / recording.robot.ticks_per_revolution));
+    lag_s_.push_back(measured_lag(run, 2 * M_PI / recording.robot.ticks_per_revolution, steps_));
   }
 }
 
@@ -279,8 +289,8 @@ std::vector<Pose2> Replay::poses(std::size_t index, const std::vector<Effect>& e
     m.lag_s = 0;
     m.deadband_radps = 0;
   }
-  const std::vector<double> left = shaft_speeds(run, r.encoders, r.encoders.left, true, lag_s_[index]);
-  const std::vector<double> right = shaft_speeds(run, r.encoders, r.encoders.right, false, lag_s_[index]);
+  const std::vector<double> left = shaft_speeds(run, r.encoders, r.encoders.left, true, lag_s_[index], steps_);
+  const std::vector<double> right = shaft_speeds(run, r.encoders, r.encoders.right, false, lag_s_[index], steps_);
   World world(r.robot, r.drivetrain, r.floor, scenario_.physics, timed(r.pushes, stretches_[index]));
   world.place(start_[index]);
   std::vector<Pose2> track;

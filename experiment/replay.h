@@ -41,6 +41,7 @@ class Replay {
   RobotModel nominal_;
   std::vector<std::vector<Stretch>> stretches_;
   std::vector<Pose2> start_;   // of each run
+  int steps_ = 1;              // of the simulator in one period of the encoders
   std::vector<double> lag_s_;  // of the counts behind the commands, per run
 };
 

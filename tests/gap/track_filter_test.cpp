@@ -44,11 +44,10 @@ std::vector<Pose2> noisy_drive(const std::vector<Pose2>& path, const std::vector
   for (std::size_t k = 0; k < path.size(); ++k) {
     if (k > 0) {
       const Pose2 u = inverse(path[k - 1]) * path[k];
-      const double turn = kNoise.turn_rad2 * std::abs(u.theta_rad);
       at = at * u *
            Pose2{random.normal(0, std::sqrt(kNoise.along_m2_pm * rolled_m[k])),
                  random.normal(0, std::sqrt(kNoise.across_m2_pm * rolled_m[k])),
-                 random.normal(0, std::sqrt(kNoise.heading_rad2_pm * rolled_m[k] + turn))};
+                 random.normal(0, std::sqrt(kNoise.heading_rad2_pm * rolled_m[k]))};
     }
     seen.push_back({at.x_m + random.normal(0, kNoise.position_sd_m), at.y_m + random.normal(0, kNoise.position_sd_m),
                     at.theta_rad + random.normal(0, kNoise.heading_sd_rad)});
@@ -124,15 +123,14 @@ TEST(TrackFilter, HasTheDensityOfTheWholeTrack) {
     }
     C += variance * effect * effect.transpose();
   };
-  constexpr double kStart_m = 0.02, kStart_rad = 0.05;  // the filter's prior of the start
+  constexpr double kStart_m = 0.02, kStart_rad = 0.2;  // the filter's prior of the start
   add(0, 0, kStart_m * kStart_m);
   add(0, 1, kStart_m * kStart_m);
   add(0, 2, kStart_rad * kStart_rad);
   for (std::size_t k = 1; k < n; ++k) {
-    const double turned = std::abs(path[k].theta_rad - path[k - 1].theta_rad);
     add(k, 0, kNoise.along_m2_pm * rolled_m[k]);
     add(k, 1, kNoise.across_m2_pm * rolled_m[k]);
-    add(k, 2, kNoise.heading_rad2_pm * rolled_m[k] + kNoise.turn_rad2 * turned);
+    add(k, 2, kNoise.heading_rad2_pm * rolled_m[k]);
   }
   for (std::size_t k = 0; k < n; ++k) {
     const Eigen::Index row = 3 * Eigen::Index(k);
