@@ -220,7 +220,9 @@ Pose2 start_of(const RecordedRun& run, const RecordedRobot& robot) {
   }
   std::nth_element(turned.begin(), turned.begin() + std::ptrdiff_t(turned.size() / 2), turned.end());
   Pose2 start = run.truth.front().X_WB;
-  start.theta_rad = turned[turned.size() / 2];
+  // The first pose is kept unless it is far off: unequal wheels turn the robot a little on its first metre, too.
+  constexpr double kFarOff_rad = 0.02;
+  if (std::abs(turned[turned.size() / 2] - start.theta_rad) > kFarOff_rad) start.theta_rad = turned[turned.size() / 2];
   return start;
 }
 

@@ -70,9 +70,18 @@ double sampling_ratio(const Recording& recording, const std::vector<std::vector<
       const std::size_t b = s.last - (s.last - s.first) / 4;
       const double per_period = std::abs(double(e[b].left_ticks - e[a].left_ticks)) / double(b - a);
       if (per_period < 4) continue;
+      double still = 0;
       for (std::size_t i = a + 1; i <= b; ++i) {
+        const double step = std::abs(double(e[i].left_ticks - e[i - 1].left_ticks));
+        if (step == 0 && e[i].right_ticks == e[i - 1].right_ticks) {
+          still += 1;
+          continue;
+        }
+        // Counts that were held back arrive together; a robot that stood starts slowly.
+        if (step > 0.6 * (still + 1) * per_period) moving += still;
+        still = 0;
         moving += 1;
-        if (e[i].left_ticks != e[i - 1].left_ticks || e[i].right_ticks != e[i - 1].right_ticks) changes += 1;
+        changes += 1;
       }
     }
   }
@@ -156,6 +165,7 @@ Habits measured_habits(const Recording& recording, const std::vector<std::vector
     habits[2] = ratio(turning, p.angular_speed_radps);
   }
   habits[3] = std::log(sampling_ratio(recording, stretches));
+  if (habits[3] < 0.1) habits[3] = 0;
   habits[4] = -std::log(coarseness(recording));
   // What is hardly measured is as declared: ramps of one or two samples, a first or last step.
   for (double& h : habits) {

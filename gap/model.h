@@ -84,6 +84,7 @@ class Model {
            (recording_.truth_kind != "endpoints" && sample % thinning_[run] == 0);
   }
   const std::vector<std::string>& conditions() const { return conditions_; }  ///< of each run
+  const Habits& habits() const { return habits_; }  ///< measured
   const std::vector<double>& rolled(std::size_t run) const { return rolled_[run]; }
   const CommandFeatures& features_of(std::size_t run) const { return measured_[run]; }
   const CommandFeatures& nominal_features_of(std::size_t run) const { return nominal_features_[run]; }

@@ -18,6 +18,14 @@ Eigen::VectorXd start_of(const Family& family) {
   return p;
 }
 
+// Effects on how the robot is driven and read are tried where counts or commands show them.
+bool shown_by_habits(const std::string& effect, const Habits& h) {
+  constexpr double kShown = 0.1;
+  if (effect == "encoder_sampling") return h[3] > kShown;
+  if (effect == "encoder_resolution") return h[4] < -kShown;
+  return true;
+}
+
 // The leg that a moment belongs to, and the seconds since its start; before the first leg: leg 0.
 std::pair<int, double> leg_at(const std::vector<Stretch>& stretches, double time_s) {
   std::pair<int, double> leg{0, 0};
@@ -32,7 +40,7 @@ std::pair<int, double> leg_at(const std::vector<Stretch>& stretches, double time
 Screen::Screen(const Model& model, const std::set<std::string>& excluded) : model_(model), excluded_(excluded) {
   const Recording& recording = model.recording();
   for (const Family& f : plain_families(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution)) {
-    if (excluded.count(f.effect) == 0) families_.push_back(f);
+    if (excluded.count(f.effect) == 0 && shown_by_habits(f.effect, model.habits())) families_.push_back(f);
   }
   std::vector<std::vector<Effect>> stepped;
   std::vector<double> steps;

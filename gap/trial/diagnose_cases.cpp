@@ -96,7 +96,7 @@ DiagnoseResult diagnose_cases(const TrialFolder& folder, const DiagnoseOptions& 
   std::vector<const CaseEntry*> open;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const fs::path place = folder.diagnoses() / entries[i].name;
-    if (!options.shard.has(i)) continue;
+    if (!options.shard.has(std::int64_t(i))) continue;
     if (options.retry && fs::exists(place) && failed(place)) fs::remove_all(place);
     if (!fs::exists(place)) open.push_back(&entries[i]);
   }

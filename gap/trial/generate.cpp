@@ -159,7 +159,7 @@ GenerateResult generate_trial(const TrialPlan& plan, const TrialFolder& folder, 
   begin(plan, folder, cases);
   std::vector<const TrialCase*> open;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (shard.has(i) && !fs::exists(folder.recordings() / cases[i].name)) open.push_back(&cases[i]);
+    if (shard.has(std::int64_t(i)) && !fs::exists(folder.recordings() / cases[i].name)) open.push_back(&cases[i]);
   }
   Scales scales(plan, simulator);
   scales.prepare(open);

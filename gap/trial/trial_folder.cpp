@@ -27,16 +27,6 @@ fs::path beside(const fs::path& path) {
 
 }  // namespace
 
-Shard parse_shard(const std::string& text) {
-  Shard shard;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%d/%d%c", &shard.index, &shard.count, &rest) != 2 || shard.count < 1 ||
-      shard.index < 1 || shard.index > shard.count) {
-    throw InputError(fmt::format("--shard {}: must be i/n with 1 <= i <= n", text));
-  }
-  return shard;
-}
-
 std::vector<CaseEntry> read_case_entries(const TrialFolder& folder) {
   std::vector<CaseEntry> entries;
   if (fs::exists(folder.cases())) {

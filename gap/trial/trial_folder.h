@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "batch/shard.h"
+
 namespace umbsim {
 
 using Json = nlohmann::ordered_json;
@@ -30,16 +32,6 @@ struct TrialFolder {
   std::filesystem::path diagnoses() const { return root / "diagnoses"; }
   std::filesystem::path score() const { return root / "score"; }
 };
-
-/// Which part of the work this process does: cases whose number in the sorted list is `index` - 1 modulo `count`.
-struct Shard {
-  int index = 1;
-  int count = 1;
-  bool has(std::size_t number) const { return int(number % std::size_t(count)) == index - 1; }
-};
-
-/// From "2/8". Throws InputError.
-Shard parse_shard(const std::string& text);
 
 /// One line of cases.json.
 struct CaseEntry {

@@ -108,8 +108,8 @@ TEST(DiagnoseCases, AProgramThatSucceedsWithoutADiagnosisHasFailed) {
 
 TEST(DiagnoseCases, ShardsTogetherAreTheWhole) {
   Desk desk;
-  EXPECT_EQ(desk.diagnose(desk.writes(), {1, 2}).finished, 2u);
-  EXPECT_EQ(desk.diagnose(desk.writes(), {2, 2}).finished, 3u);
+  EXPECT_EQ(desk.diagnose(desk.writes(), {0, 2}).finished, 2u);
+  EXPECT_EQ(desk.diagnose(desk.writes(), {1, 2}).finished, 3u);
 }
 
 TEST(DiagnoseCases, AStrangersFolderNeedsRecordingsOnly) {
