@@ -11,6 +11,7 @@ namespace {
 
 // How long another process may hold the lock; each holds it for one point.
 constexpr int kBusyTimeout_ms = 120000;
+constexpr int kRetry_ms = 20;
 
 std::string quoted(const std::string& text, char mark) {
   std::string out(1, mark);
@@ -41,8 +42,16 @@ void Database::fail(const std::string& doing) const {
   throw RunError(fmt::format("{}: {}: {}", file_, doing, handle_ ? sqlite3_errmsg(handle_.get()) : "out of memory"));
 }
 
+// SQLite does not wait by itself where two processes change the journal's mode at once: outside a transaction the whole
+// is tried again until the same time is up.
 void Database::run(const std::string& sql) {
-  if (sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail("SQLite failed");
+  int code = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);
+  for (int waited_ms = 0; (code & 0xff) == SQLITE_BUSY && sqlite3_get_autocommit(handle_.get()) && waited_ms < kBusyTimeout_ms;
+       waited_ms += kRetry_ms) {
+    sqlite3_sleep(kRetry_ms);
+    code = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);
+  }
+  if (code != SQLITE_OK) fail("SQLite failed");
 }
 
 Statement Database::prepare(const std::string& sql) {
