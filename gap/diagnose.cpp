@@ -146,7 +146,10 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   d.unexplained = d.detected && leftover > t.detect;
   d.unexplained_p = tail(2 * std::max(0.0, leftover), 2);
   if (d.detected) {
-    const bool unknown = d.unexplained && explained < t.known_share * (explained + leftover);
+    // An explanation that leaves much, or that foretells nothing of the other conditions, is none.
+    d.closure = held_out_closure(model, best);
+    const bool foretells = !d.closure.known || d.closure.ci95[1] > t.least_closure;
+    const bool unknown = d.unexplained && (!foretells || explained < t.known_share * (explained + leftover));
     Cause cause{"unknown", best, 0, 0};
     cause.fit.families.clear();
     cause.score = unknown ? d.causes.front().score + 0.5 * leftover : generic_none - 2 * t.effect_cost;
@@ -171,8 +174,6 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     d.stage = name(stage_of(best));
     d.pattern = pattern_of(best.families.front().effect);
     find_place(model, best, d);
-    say("held-out runs");
-    d.closure = held_out_closure(model, best);
   }
   d.simulated_s = model.simulated_s();
   return d;

@@ -15,11 +15,13 @@ struct Thresholds {
   double detect = 8;        ///< log evidence that a gap needs
   double effect_cost = 3;   ///< prior log odds against each further effect
   double addition = 10;     ///< log evidence that a further effect needs,
-  double addition_share = 0.01;  ///< and the same as a share of what the others gained,
+  double addition_share = 0.02;  ///< and the same as a share of what the others gained,
   double misfit_share = 0.2;     ///< and of the excess of the residual that the others leave
   double smallest = 0.25;   ///< displacement, in noise floors, below which an effect is no gap but a difference of engines
   double tie = 6;           ///< log evidence within which two explanations are not told apart
   double known_share = 0.7; ///< of the explainable evidence that named effects must explain, or the cause is unknown
+  double least_closure = 0.3; ///< that the held-out closure's interval must reach, where something is left
+  double smallest_addition = 0.5; ///< as `smallest`, of a further effect
   int most_effects = 3;
 };
 

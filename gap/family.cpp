@@ -131,13 +131,16 @@ Family both_miss() {
 Family on_soft_tyres(Family family) {
   family.variant += ", soft tyres";
   const Eigen::Index own = Eigen::Index(family.parameters.size());
-  family.parameters.push_back({"tyre_creep.along", 0.02, 5e-3, 0.1, 0, 0.5});
-  family.parameters.push_back({"tyre_creep.across", 0.02, 5e-3, 0.1, 0, 0.5});
+  // Shares of slip per traction ratio; their logarithms, for scrub depends on their order of magnitude.
+  constexpr double kAlong = 0.1;
+  constexpr double kAcross = 0.01;
+  family.parameters.push_back({"log tyre_creep.along", 0, 0.2, 1.5, -5, 1.6});
+  family.parameters.push_back({"log tyre_creep.across", 0, 0.2, 1.5, -5, 3.9});
   family.from_zero = false;
   family.parameters.front().start = family.parameters.front().step * 2;
   family.with = [own](const Eigen::VectorXd& p) {
     Effect creep = neutral_effect(find_effect("tyre_creep"));
-    creep.values.numbers = {p[own], p[own + 1]};
+    creep.values.numbers = {kAlong * std::exp(p[own]), kAcross * std::exp(p[own + 1])};
     return std::vector<Effect>{creep};
   };
   return family;

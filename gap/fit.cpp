@@ -158,8 +158,8 @@ Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start
   const Eigen::VectorXd sd = joined(nuisance_sd(), prior_sd(families));
   Fit best;
   double best_density = -1e300;
-  // Places and moments bend the simulator most.
-  if (std::any_of(families.begin(), families.end(), [](const Family& f) { return f.search_cost > 0; })) rounds *= 2;
+  // What does not act in proportion takes longer.
+  if (std::any_of(families.begin(), families.end(), [](const Family& f) { return !f.from_zero; })) rounds *= 2;
   for (int round = 0; round < rounds; ++round) {
     linearise(fit);
     const Evidence e = evidence(fit.grams, all_runs(), first_columns(sd.size()), sd, shifted(sd, fit.p));

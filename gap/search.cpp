@@ -184,7 +184,8 @@ std::vector<Fit> search(const Model& model, const Screen& screen, const Threshol
       Fit fit = model.fit(families, start);
       fit.size = displacement_m(fit.predicted.tracks, base.predicted.tracks) / model.noise_floor_m();
       // What moves counts against commands, and not the robot, is seen there.
-      if (fit.size < thresholds.smallest && !shows_in_counts(find_effect(c.family.effect))) return;
+      const double smallest = base.families.empty() ? thresholds.smallest : thresholds.smallest_addition;
+      if (fit.size < smallest && !shows_in_counts(find_effect(c.family.effect))) return;
       fits.push_back(std::move(fit));
     } catch (const RunError&) {
       // A robot that cannot be simulated is no explanation.
