@@ -191,7 +191,9 @@ std::vector<Fit> search(const Model& model, const Screen& screen, const Threshol
       if (fit.size < thresholds.smallest && !seen_in_counts) return;
       fits.push_back(std::move(fit));
     } catch (const RunError&) {
-      // A robot that cannot be simulated is no explanation.
+      // A robot that cannot be simulated is no explanation,
+    } catch (const InputError&) {
+      // nor is one that does not stand at its start, on a cable or without a wheel's floor.
     }
   };
   std::vector<Screen::Candidate> singles = screen.on_top_of(fits.front());
