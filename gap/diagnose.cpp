@@ -14,7 +14,6 @@
 namespace umbsim::gap {
 namespace {
 
-// Names that stand for more than themselves in this recording: effects whose signatures here are the same.
 constexpr double kOverconfidence = 2;  // evidence is divided by this before it becomes probability
 
 double tail(double chi_squared, double degrees_of_freedom) {
@@ -135,7 +134,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   d.detected = gap > t.detect;
   d.p_value = tail(2 * std::max(0.0, gap), 2);
   d.noise = model.noise();
-  d.noise_floor_mm = 1000 * noise_floor_m(model);
+  d.noise_floor_mm = 1000 * model.noise_floor_m();
   if (!d.detected) {
     const auto at = std::find_if(d.causes.begin(), d.causes.end(), [](const Cause& c) { return c.name == "none"; });
     std::rotate(d.causes.begin(), at, at + 1);
@@ -157,10 +156,10 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     if (d.unexplained) d.left_over = describe_left_over(model, best);
   }
   give_probabilities(d.causes);
-  const double before_m2 = mean_square_error_m2(model, none.tracks);
+  const double before_m2 = mean_square_error_m2(model, none.predicted.tracks);
   d.before_mm = 1000 * std::sqrt(before_m2);
   for (Cause& c : d.causes) {
-    if (!c.fit.families.empty()) c.squared_error_drop = 1 - mean_square_error_m2(model, c.fit.tracks) / before_m2;
+    if (!c.fit.families.empty()) c.squared_error_drop = 1 - mean_square_error_m2(model, c.fit.predicted.tracks) / before_m2;
   }
   d.overdispersion = std::max(1.0, best.residual / model.rows());
   d.explainable_fraction = explained / std::max(1e-9, explained + std::max(0.0, leftover));

@@ -93,6 +93,11 @@ Family from_start(Family family, double start) {
 
 }  // namespace
 
+bool shows_in_counts(const EffectInfo& info) {
+  return info.stage == Stage::drivetrain || info.stage == Stage::encoder || info.name == "over_acceleration" ||
+         info.name == "fast_turning";
+}
+
 Effect effect_of(const Family& family, const Eigen::VectorXd& p) {
   return {&find_effect(family.effect), family.values(p)};
 }

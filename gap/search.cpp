@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "gap/closure.h"
+#include "gap/noise_floor.h"
 
 namespace umbsim::gap {
 namespace {
@@ -61,12 +61,12 @@ Screen::Screen(const Model& model, const std::set<std::string>& excluded) : mode
       sd.push_back(f.parameters[i].prior_sd);
     }
   }
-  columns_ = model.columns({}, stepped, steps);
+  columns_ = model.columns(model.none().predicted, model.predict(stepped), steps);
   prior_sd_ = Eigen::Map<Eigen::VectorXd>(sd.data(), Eigen::Index(sd.size()));
 }
 
 std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
-  const auto residual = model_.residuals(fit.tracks, fit.effects());
+  const auto residual = model_.residuals(fit.predicted);
   const Eigen::Index own = fit.p.size();
   std::vector<Eigen::MatrixXd> all(columns_.size());
   for (std::size_t r = 0; r < all.size(); ++r) {
@@ -164,7 +164,6 @@ double addition_needed(const Model& model, const Fit& base, double none, const T
 std::vector<Fit> search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say) {
   std::vector<Fit> fits{model.none()};
   say("fitting single effects");
-  const double floor_m = noise_floor_m(model);
   const auto tried = [&](const Fit base, const Screen::Candidate& c) {
     std::vector<Family> families = base.families;
     families.push_back(c.family);
@@ -183,12 +182,9 @@ std::vector<Fit> search(const Model& model, const Screen& screen, const Threshol
       }
       start[base.p.size()] = chosen;
       Fit fit = model.fit(families, start);
-      fit.size = displacement_m(fit.tracks, base.tracks) / floor_m;
+      fit.size = displacement_m(fit.predicted.tracks, base.predicted.tracks) / model.noise_floor_m();
       // What moves counts against commands, and not the robot, is seen there.
-      const EffectInfo& info = find_effect(c.family.effect);
-      const bool seen_in_counts = info.stage == Stage::drivetrain || info.stage == Stage::encoder ||
-                                  info.name == "over_acceleration" || info.name == "fast_turning";
-      if (fit.size < thresholds.smallest && !seen_in_counts) return;
+      if (fit.size < thresholds.smallest && !shows_in_counts(find_effect(c.family.effect))) return;
       fits.push_back(std::move(fit));
     } catch (const RunError&) {
       // A robot that cannot be simulated is no explanation,
