@@ -113,6 +113,7 @@ Fit Model::none() const {
   fit.grams = grams(residuals(without_effects_), {});
   const Evidence e = evidence(fit.grams, all_runs(), first_columns(nuisances()), nuisance_sd());
   fit.residual = e.residual;
+  fit.misfit = e.misfit;
   fit.nuisance = e.mean;
   score(fit);
   return fit;
@@ -159,7 +160,7 @@ Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start
   Fit best;
   double best_density = -1e300;
   // Places and moments bend the simulator most.
-  if (std::any_of(families.begin(), families.end(), [](const Family& f) { return f.search_cost > 0; })) rounds *= 2;
+  if (std::any_of(families.begin(), families.end(), [](const Family& f) { return f.search_cost > 0; })) rounds += 1;
   for (int round = 0; round < rounds; ++round) {
     linearise(fit);
     const Evidence e = evidence(fit.grams, all_runs(), first_columns(sd.size()), sd, shifted(sd, fit.p));
@@ -168,6 +169,7 @@ Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start
     const double density = held.log_density - 0.5 * fit.p.cwiseQuotient(sd.tail(m)).squaredNorm();
     fit.covariance = e.covariance.bottomRightCorner(m, m);
     fit.residual = held.residual;
+    fit.misfit = held.misfit;
     fit.nuisance = held.mean;
     if (density <= best_density) {
       // Where a step leads was not where the derivatives pointed, unless it was too small to matter.
