@@ -14,6 +14,7 @@
 #include "experiment/result_json.h"
 #include "experiment/run_folder.h"
 #include "gap/check.h"
+#include "gap/clock.h"
 #include "gap/diagnosis_json.h"
 #include "gap/remembered.h"
 #include "gap/tracks_json.h"
@@ -108,13 +109,26 @@ std::string page(const gap::Model& model, const gap::Diagnosis& d, const Json& j
   return render_gap_report(data);
 }
 
+// With poses between end points, and a tracker's own clock set to the encoders'.
+Recording followed_through(const Recording& given, std::vector<std::string>& limits) {
+  Recording recording = gap::with_moments_between(given);
+  if (!gap::tracker_is_free(recording) || recording.truth_kind != "track") return recording;
+  gap::ClocksAligned aligned = gap::with_clocks_aligned(std::move(recording));
+  if (aligned.most_offset_s > 0) {
+    limits.push_back(fmt::format("the tracker's clock was moved by up to {:.0f} ms and {:.2f} % to agree with the encoders': "
+                                 "latency and clock cannot be told apart", 1000 * aligned.most_offset_s,
+                                 100 * aligned.most_rate));
+  }
+  return std::move(aligned.recording);
+}
+
 void run_diagnose(const DiagnoseArguments& a) {
   const auto start = std::chrono::steady_clock::now();
   const std::string out = a.out.empty() ? "results/" + folder_name(a.recording) + "-diagnosis" : a.out;
   for (const std::string& e : a.excluded) find_effect(e);
   const Recording given = read_recording(a.recording);
-  const std::vector<std::string> limits = gap::check_recording(given, a.recording);
-  const Recording recording = gap::with_moments_between(given);
+  std::vector<std::string> limits = gap::check_recording(given, a.recording);
+  const Recording recording = followed_through(given, limits);
   const Scenario scenario = a.scenario.empty() ? scenario_of(recording, a.recording) : read_scenario(a.scenario);
   prepare_output_folder(out, a.force);
   const Replay replay(scenario, recording);

@@ -84,7 +84,8 @@ ClockFit fit_clock(const RecordedRun& run, const RecordedRobot& robot) {
   return fit;
 }
 
-Recording with_clocks_aligned(Recording recording) {
+ClocksAligned with_clocks_aligned(Recording recording) {
+  ClocksAligned result;
   constexpr double kStandsOut = 4;  // standard deviations; samples of a tracker are not independent
   for (RecordedRun& run : recording.runs) {
     const ClockFit fit = fit_clock(run, recording.robot);
@@ -96,8 +97,11 @@ Recording with_clocks_aligned(Recording recording) {
       if (t.time_s >= run.encoders.front().time_s && t.time_s <= run.encoders.back().time_s) kept.push_back(t);
     }
     run.truth = std::move(kept);
+    result.most_offset_s = std::max(result.most_offset_s, std::abs(fit.offset_s));
+    result.most_rate = std::max(result.most_rate, std::abs(fit.rate));
   }
-  return recording;
+  result.recording = std::move(recording);
+  return result;
 }
 
 }  // namespace umbsim::gap

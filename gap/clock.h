@@ -16,8 +16,14 @@ struct ClockFit {
 /// on the odometry's at the shifted time, a constant, a scale of turns and a drift with the way.
 ClockFit fit_clock(const RecordedRun& run, const RecordedRobot& robot);
 
+struct ClocksAligned {
+  Recording recording;
+  double most_offset_s = 0;  ///< largest that was applied, 0 if none
+  double most_rate = 0;
+};
+
 /// The recording with the truth's times moved by each run's fit, where that stands out from its own uncertainty; samples
 /// that then lie outside the encoders' time are left out.
-Recording with_clocks_aligned(Recording recording);
+ClocksAligned with_clocks_aligned(Recording recording);
 
 }  // namespace umbsim::gap

@@ -150,13 +150,14 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   }
   const Fit best = d.causes.front().fit;
   const double lack = lack_of_fit(model, best, t);
-  const double leftover = std::max(generic_gain(model, best), lack);
+  const double left_generic = generic_gain(model, best);
+  const double leftover = std::max(left_generic, lack);
   const double explained = best.log_evidence - none.log_evidence;
   d.unexplained = d.detected && leftover > t.detect;
   d.unexplained_p = tail(2 * std::max(0.0, leftover), 2);
   if (d.detected) {
-    const bool unknown = d.unexplained && (explained < t.known_share * (explained + leftover) ||
-                                           lack > (1 - t.known_share) * lack_none);
+    const bool unknown = d.unexplained && (explained < t.known_share * (explained + left_generic) ||
+                                           lack > t.misfit_left * lack_none);
     Cause cause{"unknown", best, 0, 0};
     cause.fit.families.clear();
     cause.score = unknown ? d.causes.front().score + 0.5 * leftover : generic_none - 2 * t.effect_cost;

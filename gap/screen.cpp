@@ -7,6 +7,7 @@
 namespace umbsim::gap {
 namespace {
 
+constexpr double kLeastKick = 10; // log evidence below which a place or a moment would not pay
 constexpr double kTryCost = 3;  // log of how many frictions are tried
 
 Eigen::VectorXd start_of(const Family& family) {
@@ -130,7 +131,7 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
   };
   for (std::size_t i = 0; i < std::min<std::size_t>(kicks.places.size(), 2); ++i) {
     const PlaceKick& k = kicks.places[i];
-    if (k.gain < 5) break;
+    if (k.gain < kLeastKick) break;
     if (k.lost_m > 0) {
       // Closed form of a cable that costs a wheel this distance.
       const double height_m = std::clamp(0.5 * std::pow(3 * std::sqrt(R) * k.lost_m, 2.0 / 3), 0.001, 0.02);
@@ -140,7 +141,7 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
     offer(patch_family(k.x_m, k.y_m), all_of({{0.02, 0.035, 0.05}, {0.1, 0.25, 0.45}, {0}, {0}}), {0.006, 0.06, 0.1, 0.1},
           k.gain - 2);
   }
-  if (kicks.moments.empty() || kicks.moments.front().gain <= 5) return;
+  if (kicks.moments.empty() || kicks.moments.front().gain < kLeastKick) return;
   const Kick& k = kicks.moments.front();
   const RecordedRun& run = model_.recording().runs[k.run];
   const auto [leg, seconds] = leg_at(model_.stretches(k.run), run.truth[k.sample].time_s);

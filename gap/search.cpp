@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kSinglesFitted = 8;
 constexpr std::size_t kAdditionsFitted = 4;
+constexpr double kFarBehind = 20;  // log evidence
 constexpr int kHalvings = 3;
 constexpr int kMostTries = 110;  // simulations of all runs in the search for a place
 
@@ -59,6 +60,11 @@ double seen_between(const Model& model, const Fit& base, const Fit& fit) {
   return std::sqrt(square / model.rows());
 }
 
+// Nothing is left but noise, as well as it is known.
+bool explains_all(const Model& model, const Fit& fit, const Thresholds& t) {
+  return fit.misfit < (1 + t.noise_error) * model.rows();
+}
+
 }  // namespace
 
 double addition_needed(const Model& model, const Fit& base, double none, const Thresholds& t) {
@@ -95,6 +101,11 @@ std::vector<Fit> search(const Model& model, const Screen& screen, const Threshol
     const double needed = singles[i].family.from_zero ? 2 : 1;
     if (singles[i].gain < needed) continue;
     if (i >= kSinglesFitted && singles[i].gain < best_gain - 15) continue;
+    // Places and moments take many simulations: not where something else explains all that noise does not.
+    const bool explained = std::any_of(fits.begin() + 1, fits.end(), [&](const Fit& f) {
+      return explains_all(model, f, thresholds) && f.log_evidence - fits.front().log_evidence > singles[i].gain;
+    });
+    if (singles[i].reach.size() > 0 && explained) continue;
     tried(fits.front(), singles[i]);
   }
   const double none = fits.front().log_evidence;
@@ -107,6 +118,9 @@ std::vector<Fit> search(const Model& model, const Screen& screen, const Threshol
     std::sort(from.begin(), from.end(), [](const Fit* a, const Fit* b) { return a->log_evidence > b->log_evidence; });
     // Go on from the best, and from a second that is nearly as good or explains something quite different.
     if (from.size() > 2) from.resize(2);
+    const bool second_is_idle = from.size() == 2 && explains_all(model, *from[0], thresholds) &&
+                                from[1]->log_evidence < from[0]->log_evidence - kFarBehind;
+    if (second_is_idle) from.resize(1);
     if (from.empty() || from.front()->log_evidence < none + thresholds.detect) break;
     say(depth == 2 ? "fitting pairs of effects" : "fitting combinations of three");
     std::vector<Fit> next;
