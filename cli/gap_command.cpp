@@ -16,6 +16,7 @@
 #include "gap/check.h"
 #include "gap/clock.h"
 #include "gap/diagnosis_json.h"
+#include "gap/remembered.h"
 #include "gap/tracks_json.h"
 #include "report/report.h"
 
@@ -132,7 +133,7 @@ void run_diagnose(const DiagnoseArguments& a) {
   prepare_output_folder(out, a.force);
   const Replay replay(scenario, recording);
   const gap::Say say = stage_printer();
-  const gap::Model model(recording, simulator(replay), gap::Scatter{});
+  const gap::Model model(recording, gap::remembered(simulator(replay), recording), gap::Scatter{});
   gap::Diagnosis d =
       gap::diagnose(model, std::set<std::string>(a.excluded.begin(), a.excluded.end()), gap::Thresholds{}, say);
   d.limits = limits;

@@ -24,17 +24,18 @@ std::vector<double> smoothed(std::vector<double> angle) {
   return angle;
 }
 
-// Counts that were latched only every so often stand still in between: the moments of change are joined by lines.
+// Counts that were latched only every so often stand still in between: the moments of change are joined by lines. Where
+// nothing changes for longer the wheel stands, until one interval before the next change.
 void join_latches(std::vector<double>& counts, const std::vector<EncoderSample>& samples, double interval_s) {
-  if (interval_s <= 0 || samples.size() < 2) return;
+  if (interval_s <= 0) return;
   std::size_t from = 0;
+  const std::vector<double> latched = counts;
   for (std::size_t i = 1; i < counts.size(); ++i) {
-    const bool latched = std::floor(samples[i].time_s / interval_s + 1e-9) >
-                         std::floor(samples[i - 1].time_s / interval_s + 1e-9);
-    if (!latched && i + 1 < counts.size()) continue;
-    const double a = counts[from];
-    const double b = counts[i];
-    for (std::size_t j = from + 1; j < i; ++j) counts[j] = a + (b - a) * double(j - from) / double(i - from);
+    if (latched[i] == latched[i - 1]) continue;
+    while (from + 1 < i && samples[i].time_s - samples[from + 1].time_s > interval_s - 1e-9) ++from;
+    for (std::size_t j = from + 1; j < i; ++j) {
+      counts[j] = latched[from] + (latched[i] - latched[from]) * double(j - from) / double(i - from);
+    }
     from = i;
   }
 }
@@ -57,15 +58,17 @@ std::vector<double> half_a_step_later(const std::vector<double>& speed, int step
   return later;
 }
 
-// A wheel's commands, `lag_s` late.
+// A wheel's speed at the samples if it follows the commands, which ramp from one to the next, with a first-order lag.
 std::vector<double> obeyed(const std::vector<EncoderSample>& s, double EncoderSample::*command, double lag_s) {
-  std::vector<double> late(s.size());
-  EncoderClock clock(s);
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    const auto m = clock.at(s[i].time_s - lag_s);
-    late[i] = m.between(s[m.before].*command, s[m.before + 1].*command);
+  std::vector<double> speed(s.size());
+  speed[0] = s[0].*command;
+  for (std::size_t i = 1; i < s.size(); ++i) {
+    const double dt = s[i].time_s - s[i - 1].time_s;
+    const double behind = (s[i].*command - s[i - 1].*command) / dt * lag_s;
+    const double fading = lag_s > 0 ? std::exp(-dt / lag_s) : 0;
+    speed[i] = s[i].*command - behind + (speed[i - 1] - s[i - 1].*command + behind) * fading;
   }
-  return late;
+  return speed;
 }
 
 // Mean over neighbours within half a window, fewer at the ends.

@@ -62,6 +62,13 @@ std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, con
   return kept;
 }
 
+// What the tracks stray beyond noise and nuisances, as log evidence for something else, as long as the noise is known from
+// repeated runs.
+double lack_of_fit(const Model& model, const Fit& fit, const Thresholds& t) {
+  if (!model.replicated()) return 0;
+  return std::max(0.0, fit.misfit - (1 + t.noise_error) * model.rows()) / 2;
+}
+
 // A combination that predicts held-out runs worse than something simpler gives way to it.
 void prefer_what_predicts(const Model& model, std::vector<Cause>& causes) {
   while (causes.front().fit.families.size() > 1) {
@@ -130,7 +137,8 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   prefer_what_predicts(model, d.causes);
   say("what no effect explains");
   const double generic_none = generic_gain(model, none);
-  const double gap = std::max(d.causes.front().name == "none" ? 0 : d.causes.front().score, generic_none);
+  const double lack_none = lack_of_fit(model, none, t);
+  const double gap = std::max(d.causes.front().name == "none" ? 0 : d.causes.front().score, std::max(generic_none, lack_none));
   d.detected = gap > t.detect;
   d.p_value = tail(2 * std::max(0.0, gap), 2);
   d.noise = model.noise();
@@ -141,7 +149,9 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     d.causes.front().score = std::max(d.causes.front().score, d.causes.size() > 1 ? d.causes[1].score + t.effect_cost : 0);
   }
   const Fit best = d.causes.front().fit;
-  const double leftover = generic_gain(model, best);
+  const double lack = lack_of_fit(model, best, t);
+  const double left_generic = generic_gain(model, best);
+  const double leftover = std::max(left_generic, lack);
   const double explained = best.log_evidence - none.log_evidence;
   d.unexplained = d.detected && leftover > t.detect;
   d.unexplained_p = tail(2 * std::max(0.0, leftover), 2);
@@ -149,7 +159,8 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     // An explanation that leaves much, or that foretells nothing of the other conditions, is none.
     d.closure = held_out_closure(model, best);
     const bool foretells = !d.closure.known || d.closure.ci95[1] > t.least_closure;
-    const bool unknown = d.unexplained && (!foretells || explained < t.known_share * (explained + leftover));
+    const bool unknown = d.unexplained && (!foretells || explained < t.known_share * (explained + left_generic) ||
+                                           lack > t.misfit_left * lack_none);
     Cause cause{"unknown", best, 0, 0};
     cause.fit.families.clear();
     cause.score = unknown ? d.causes.front().score + 0.5 * leftover : generic_none - 2 * t.effect_cost;

@@ -113,6 +113,7 @@ Fit Model::none() const {
   fit.grams = grams(residuals(without_effects_), {});
   const Evidence e = evidence(fit.grams, all_runs(), first_columns(nuisances()), nuisance_sd());
   fit.residual = e.residual;
+  fit.misfit = e.misfit;
   fit.nuisance = e.mean;
   score(fit);
   return fit;
@@ -158,8 +159,10 @@ Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start
   const Eigen::VectorXd sd = joined(nuisance_sd(), prior_sd(families));
   Fit best;
   double best_density = -1e300;
-  // What does not act in proportion takes longer.
-  if (std::any_of(families.begin(), families.end(), [](const Family& f) { return !f.from_zero; })) rounds *= 2;
+  // What does not act in proportion takes longer, most of all with the softness of the tyres.
+  const auto any = [&](const auto& is) { return std::any_of(families.begin(), families.end(), is); };
+  if (any([](const Family& f) { return bool(f.with); })) rounds *= 2;
+  else if (any([](const Family& f) { return !f.from_zero; })) rounds += 1;
   for (int round = 0; round < rounds; ++round) {
     linearise(fit);
     const Evidence e = evidence(fit.grams, all_runs(), first_columns(sd.size()), sd, shifted(sd, fit.p));
@@ -168,6 +171,7 @@ Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start
     const double density = held.log_density - 0.5 * fit.p.cwiseQuotient(sd.tail(m)).squaredNorm();
     fit.covariance = e.covariance.bottomRightCorner(m, m);
     fit.residual = held.residual;
+    fit.misfit = held.misfit;
     fit.nuisance = held.mean;
     if (density <= best_density) {
       // Where a step leads was not where the derivatives pointed, unless it was too small to matter.

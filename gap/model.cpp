@@ -161,7 +161,7 @@ std::vector<Eigen::VectorXd> Model::left_over(const Fit& fit) const {
 
 double Model::rows() const {
   double rows = 0;
-  for (const TrackFilter& f : filters_) rows += 3 * double(f.samples());
+  for (const auto& run : nominal_.seen) rows += 3 * double(std::count(run.begin(), run.end(), true));
   return rows;
 }
 

@@ -38,12 +38,15 @@ struct Fit {
   double log_evidence = 0;     ///< against no effect and the same nuisances
   double held_out = 0;         ///< sum of log predictive densities of each condition given the others, the same
   double residual = 0;         ///< squared whitened residual at the optimum
+  double misfit = 0;           ///< the same with what the nuisances cost: as many as there are rows, if the model is right
   std::vector<RunGram> grams;  ///< residual, nuisances, derivatives at p
   std::vector<Eigen::MatrixXd> columns;  ///< whitened derivatives at p, per run
   Eigen::VectorXd nuisance;    ///< posterior mean of the shared nuisances
   Predicted predicted;         ///< at p
 
   double size = 0;  ///< root mean square displacement that the last family adds to the tracks, over the noise floor
+
+  double seen = 0;  ///< root mean square of the same in the whitened tracks: what makes no way, but shakes, shows here
 
   std::vector<Effect> effects() const;
   std::string name() const;    ///< effects joined by "+", in alphabetical order
@@ -65,7 +68,7 @@ class Model {
   int nuisances() const { return int(nuisances_.shared_sd.size()); }
   const Eigen::VectorXd& nuisance_sd() const { return nuisances_.shared_sd; }
   std::vector<std::size_t> all_runs() const;
-  double rows() const;  ///< numbers in all residuals
+  double rows() const;  ///< numbers in all residuals that count
   double simulated_s() const { return simulated_s_; }
 
   /// All runs under each set of effects.
@@ -97,7 +100,7 @@ class Model {
   double density_at(const std::vector<Family>& families, const Eigen::VectorXd& p) const;
 
   /// Fits the free numbers of the families together, in the simulator. `start`: empty for the families' own.
-  Fit fit(const std::vector<Family>& families, const Eigen::VectorXd& start = {}, int rounds = 4) const;
+  Fit fit(const std::vector<Family>& families, const Eigen::VectorXd& start = {}, int rounds = 7) const;
 
   /// The effects of a fit with their numbers taken from a subset of the runs.
   std::vector<Effect> fitted_on(const Fit& fit, const std::vector<std::size_t>& runs) const;
