@@ -109,6 +109,12 @@ std::vector<Eigen::VectorXd> Model::residuals(const Predicted& predicted) const 
   return result;
 }
 
+double Model::counts_misfit(const Predicted& predicted) const {
+  double sum = 0;
+  for (std::size_t r = 0; r < recording_.runs.size(); ++r) sum += feature_rows(r, measured_, predicted).squaredNorm();
+  return sum;
+}
+
 std::vector<Eigen::MatrixXd> Model::columns(const Predicted& at, const std::vector<Predicted>& stepped,
                                             const std::vector<double>& steps) const {
   std::vector<Eigen::MatrixXd> result(recording_.runs.size());

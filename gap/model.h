@@ -86,6 +86,9 @@ class Model {
   /// Whitened residual of every run.
   std::vector<Eigen::VectorXd> residuals(const Predicted& predicted) const;
 
+  /// Sum of squares, in standard deviations, by which a prediction misses counts against commands.
+  double counts_misfit(const Predicted& predicted) const;
+
   /// Grams of residual, nuisances and the given columns; further columns of each run alone are integrated out.
   std::vector<RunGram> grams(const std::vector<Eigen::VectorXd>& residual, const std::vector<Eigen::MatrixXd>& columns,
                              const std::vector<LocalColumns>& local = {}) const;

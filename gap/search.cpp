@@ -11,6 +11,7 @@ namespace umbsim::gap {
 namespace {
 
 constexpr std::size_t kSinglesFitted = 8;
+constexpr double kContradicted = 25;  // five standard deviations, squared
 constexpr std::size_t kAdditionsFitted = 4;
 constexpr double kFarBehind = 20;  // log evidence
 constexpr int kHalvings = 3;
@@ -84,6 +85,8 @@ std::vector<Fit> search(const Model& model, const Screen& screen, const Threshol
       Fit fit = model.fit(families, start);
       fit.size = displacement_m(fit.predicted.tracks, base.predicted.tracks) / model.noise_floor_m();
       fit.seen = seen_between(model, base, fit);
+      // What the counts speak against may not explain the tracks.
+      if (model.counts_misfit(fit.predicted) > model.counts_misfit(base.predicted) + kContradicted) return;
       // What moves counts against commands, and not the robot, is seen there.
       const double smallest = base.families.empty() ? thresholds.smallest : thresholds.smallest_addition;
       const bool small = fit.size < smallest && fit.seen < thresholds.least_seen;
