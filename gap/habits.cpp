@@ -8,6 +8,8 @@
 namespace umbsim::gap {
 namespace {
 
+constexpr std::size_t kFirstCounts = 30;  // that the coarse look at the counts takes in
+
 double median(std::vector<double> x) {
   if (x.empty()) return 0;
   std::nth_element(x.begin(), x.begin() + std::ptrdiff_t(x.size() / 2), x.end());
@@ -115,7 +117,8 @@ double coarseness(const Recording& recording) {
   // From a coarse look at the first counts to a fine one at all of them.
   double best = smallest;
   double width = 1;
-  for (double up_to = smallest * 12; width > 1e-6 * best; up_to *= 4) {
+  const double enough = counts[std::min(counts.size() - 1, kFirstCounts)];
+  for (double up_to = std::max(smallest * 12, enough); width > 1e-6 * best; up_to *= 4) {
     double top = -1;
     const double centre = best;
     for (int i = -40; i <= 40; ++i) {
