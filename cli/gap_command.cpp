@@ -1,4 +1,5 @@
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -8,6 +9,7 @@
 #include <unistd.h>
 
 #include "cli/commands.h"
+#include "cli/gap_simulator.h"
 #include "core/text_file.h"
 #include "experiment/build_info.h"
 #include "experiment/replay.h"
@@ -15,6 +17,7 @@
 #include "experiment/run_folder.h"
 #include "gap/check.h"
 #include "gap/diagnosis_json.h"
+#include "gap/diagnosis_progress.h"
 #include "gap/tracks_json.h"
 #include "report/report.h"
 
@@ -29,6 +32,7 @@ struct DiagnoseArguments {
   std::vector<std::string> excluded;
   std::string out;
   bool force = false;
+  bool no_cache = false;
 };
 
 std::string folder_name(const std::string& path) {
@@ -36,21 +40,10 @@ std::string folder_name(const std::string& path) {
   return p.has_filename() ? p.filename().string() : p.parent_path().filename().string();
 }
 
-// Stages of the work, on a terminal only.
-gap::Say stage_printer() {
-  const auto start = std::chrono::steady_clock::now();
-  const bool terminal = isatty(2);
-  return [start, terminal](const std::string& stage) {
-    if (!terminal) return;
-    const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    fmt::print(stderr, "\r\033[K{:5.1f} s  {}", s, stage);
-  };
-}
-
-gap::Simulator simulator(const Replay& replay) {
-  return {[&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.poses(run, effects); },
-          [&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.counts(run, effects); },
-          [&replay](const std::vector<Effect>& effects) { return replay.habits(effects); }};
+// Stages of the work and the time left, on a terminal only.
+void show_stage(double elapsed_s, const std::string& stage, double left_s) {
+  const std::string left = left_s < 0 ? "" : fmt::format(", about {:.0f} s left", std::ceil(left_s));
+  fmt::print(stderr, "\r\033[K{:5.1f} s  {}{}", elapsed_s, stage, left);
 }
 
 // The scenario with the diagnosed effects added; each effect once.
@@ -117,12 +110,14 @@ void run_diagnose(const DiagnoseArguments& a) {
   const Scenario scenario = a.scenario.empty() ? scenario_of(recording, a.recording) : read_scenario(a.scenario);
   prepare_output_folder(out, a.force);
   const Replay replay(scenario, recording);
-  const gap::Say say = stage_printer();
-  const gap::Model model(recording, simulator(replay), gap::Scatter{});
-  gap::Diagnosis d =
-      gap::diagnose(model, std::set<std::string>(a.excluded.begin(), a.excluded.end()), gap::Thresholds{}, say);
+  const bool terminal = isatty(2) != 0;
+  gap::DiagnosisProgress progress(recording.runs.size(), terminal ? show_stage : [](double, const std::string&, double) {});
+  const gap::Say say = [&](const std::string& stage) { progress.stage(stage); };
+  const gap::Model model(recording, progress.counted(cached_gap_simulator(replay, a.no_cache)), gap::Scatter{});
+  const std::set<std::string> excluded(a.excluded.begin(), a.excluded.end());
+  gap::Diagnosis d = gap::diagnose(model, excluded, gap::Thresholds{}, say);
   d.limits = limits;
-  if (isatty(2)) fmt::print(stderr, "\r\033[K");
+  if (terminal) fmt::print(stderr, "\r\033[K");
   Json json = gap::diagnosis_json(d);
   json["next_experiment"] = Json::array();
   json["cost"] = {{"wall_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()},
@@ -150,9 +145,11 @@ void add_gap_command(CLI::App& app) {
   command->add_option("--exclude", a->excluded, "Take an effect out of the catalogue (repeatable)")->allow_extra_args(false);
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<recording>-diagnosis");
   command->add_flag("--force", a->force, "Replace a finished result");
+  command->add_flag("--no-cache", a->no_cache, "Keep no simulated tracks in the user's cache folder, and use none");
   command->callback([a] { run_diagnose(*a); });
   add_gap_trial_command(*group);
   add_gap_predict_command(*group);
+  add_gap_plan_command(*group);
 }
 
 }  // namespace umbsim

@@ -74,7 +74,8 @@ std::string Fit::name() const {
   return fmt::format("{}", fmt::join(names, "+"));
 }
 
-Model::Model(const Recording& recording, Simulator simulator, const Scatter& scatter)
+Model::Model(const Recording& recording, Simulator simulator, const Scatter& scatter,
+             const std::optional<NoiseModel>& known)
     : recording_(recording), simulator_(std::move(simulator)), scatter_(scatter) {
   for (const RecordedRun& run : recording.runs) {
     stretches_.push_back(umbsim::stretches(run, recording.robot));
@@ -103,7 +104,8 @@ Model::Model(const Recording& recording, Simulator simulator, const Scatter& sca
   }
   habits_ = measured_habits(recording, stretches_);
   nominal_habits_ = predicted_habits({});
-  estimate_noise();
+  if (known) noise_ = *known;
+  else estimate_noise();
   make_filters();
   make_nuisances();
 }

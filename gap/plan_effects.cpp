@@ -1,0 +1,96 @@
+#include "gap/plan_effects.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace umbsim::gap {
+namespace {
+
+constexpr double kWeakestShare = 1.0 / 300;  // of the plausible maximum: acts less than any noise
+
+const EffectParameter* parameter_of(const Family& family) {
+  for (const EffectParameter& p : find_effect(family.effect).parameters) {
+    if (p.name == family.parameters.front().name) return &p;
+  }
+  return nullptr;
+}
+
+// Friction acts the more the smaller it is.
+bool acts_when_small(const std::string& parameter) { return parameter == "friction"; }
+
+PlannedFamily planned(Family family) {
+  PlannedFamily p;
+  p.by_run_number = family.effect == "wear";
+  // Softness of the tyres goes with a toe, it is not what is asked about.
+  p.happens = !family.with;
+  if (const EffectParameter* strength = parameter_of(family)) {
+    if (acts_when_small(strength->name)) {
+      p.weak = 0.8;
+      p.strong = std::max(strength->plausible_min, 0.01);
+    } else {
+      p.strong = strength->plausible_max;
+      p.weak = p.strong * kWeakestShare;
+    }
+  }
+  p.family = std::move(family);
+  return p;
+}
+
+// Half way along the first leg of a run: a moment and the leg's number.
+struct HalfWay {
+  int leg = 1;
+  double seconds_into_leg = 0;
+  Pose2 X_WB;
+};
+
+HalfWay half_way(const Model& model, int wanted_leg) {
+  HalfWay at;
+  for (const Stretch& s : model.stretches(0)) {
+    if (s.kind != Stretch::Kind::leg || s.leg > wanted_leg) continue;
+    at.leg = s.leg;
+    at.seconds_into_leg = (s.end_s - s.start_s) / 2;
+    const auto& truth = model.recording().runs[0].truth;
+    std::size_t k = 0;
+    while (k + 1 < truth.size() && truth[k].time_s < s.start_s + at.seconds_into_leg) ++k;
+    at.X_WB = model.nominal_tracks()[0][k];
+  }
+  return at;
+}
+
+}  // namespace
+
+std::vector<PlannedFamily> planned_families(const Model& model, const std::set<std::string>& wanted) {
+  const Recording& recording = model.recording();
+  std::vector<PlannedFamily> all;
+  for (Family& f : plain_families(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution)) {
+    all.push_back(planned(std::move(f)));
+  }
+  const Pose2 under_wheel = half_way(model, 1).X_WB * Pose2{0, -recording.robot.wheelbase_m / 2, 0};
+  for (Family f : {bump_family(under_wheel.x_m, under_wheel.y_m, under_wheel.theta_rad),
+                   lift_family(under_wheel.x_m, under_wheel.y_m), patch_family(under_wheel.x_m, under_wheel.y_m)}) {
+    all.push_back(planned(std::move(f)));
+  }
+  const HalfWay push = half_way(model, 2);
+  all.push_back(planned(push_family(recording.runs[0].id, push.leg, push.seconds_into_leg)));
+  all.back().in_first_run = true;
+  std::erase_if(all, [&](const PlannedFamily& p) { return wanted.count(p.family.effect) == 0; });
+  return all;
+}
+
+std::vector<std::string> without_family(const std::set<std::string>& wanted) {
+  std::set<std::string> missing = wanted;
+  for (const Family& f : plain_families(0.02, 2000)) missing.erase(f.effect);
+  for (const char* local : {"bump", "wheel_lift", "slippery_patch", "push"}) missing.erase(local);
+  return {missing.begin(), missing.end()};
+}
+
+bool plausible(const Effect& effect) {
+  for (std::size_t i = 0; i < effect.info->parameters.size(); ++i) {
+    const EffectParameter& p = effect.info->parameters[i];
+    const double value = effect.values.numbers[i];
+    if (value != p.neutral && p.plausible_max > 0 && std::abs(value) > p.plausible_max) return false;
+  }
+  return true;
+}
+
+}  // namespace umbsim::gap
