@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "cli/commands.h"
+#include "cli/gap_menu.h"
 #include "cli/gap_simulator.h"
 #include "core/text_file.h"
 #include "experiment/build_info.h"
@@ -18,6 +19,7 @@
 #include "gap/check.h"
 #include "gap/diagnosis_json.h"
 #include "gap/diagnosis_progress.h"
+#include "gap/plan_ties.h"
 #include "gap/tracks_json.h"
 #include "report/report.h"
 
@@ -59,7 +61,7 @@ std::string twin_yaml(Scenario scenario, const gap::Diagnosis& d) {
   return resolved_yaml(scenario);
 }
 
-std::string summary_text(const gap::Diagnosis& d) {
+std::string summary_text(const gap::Diagnosis& d, const std::vector<gap::NextExperiment>& next) {
   std::string text;
   if (!d.detected) {
     text += fmt::format("No gap beyond the noise (floor {:.1f} mm, scenario off by {:.1f} mm).\n", d.noise_floor_mm, d.before_mm);
@@ -80,6 +82,10 @@ std::string summary_text(const gap::Diagnosis& d) {
       text += "\n";
     }
     text += fmt::format("Not told apart: {}\n", fmt::join(d.set, ", "));
+    for (const auto& group : d.indistinguishable) text += fmt::format("Alike in these runs: {}\n", fmt::join(group, ", "));
+    for (const gap::NextExperiment& n : next) {
+      text += fmt::format("Next: {} separates {}\n", n.run, fmt::join(n.separates, ", "));
+    }
     if (!d.left_over.empty()) text += fmt::format("Left over: {}\n", d.left_over);
     if (d.closure.known) {
       text += fmt::format("How far: held-out closure {:.1f} % [{:.1f}, {:.1f}]: {:.1f} mm -> {:.1f} mm, {:.3f} deg -> {:.3f} deg\n",
@@ -89,6 +95,21 @@ std::string summary_text(const gap::Diagnosis& d) {
   }
   for (const std::string& limit : d.limits) text += "Limit: " + limit + "\n";
   return text;
+}
+
+// What to drive next, where something is tied: the menu is driven by the nominal robot.
+std::vector<gap::NextExperiment> next_runs(const Scenario& scenario, const Recording& recording, const gap::Ties& ties,
+                                           const gap::NoiseModel& noise, bool no_cache) {
+  if (ties.members.size() < 2) return {};
+  const std::vector<gap::MenuRun> menu = menu_for(scenario, recording.path);
+  Recording without_runs = recording;
+  without_runs.runs.clear();
+  const Recording driven = with_menu(std::move(without_runs), scenario, menu);
+  const Replay replay(scenario, driven);
+  const gap::Model model(driven, cached_gap_simulator(replay, no_cache), gap::Scatter{}, noise);
+  std::vector<std::string> labels;
+  for (const gap::MenuRun& m : menu) labels.push_back(m.label);
+  return gap::next_experiments(model, labels, ties, gap::Thresholds{});
 }
 
 // The page is the same bytes on every run: without the cost.
@@ -117,9 +138,16 @@ void run_diagnose(const DiagnoseArguments& a) {
   const std::set<std::string> excluded(a.excluded.begin(), a.excluded.end());
   gap::Diagnosis d = gap::diagnose(model, excluded, gap::Thresholds{}, say);
   d.limits = limits;
+  say("what could be another effect");
+  const gap::Ties ties = gap::find_ties(model, d, excluded, gap::Thresholds{});
+  gap::add_ties(ties, gap::Thresholds{}, d);
+  const std::vector<gap::NextExperiment> next = next_runs(scenario, recording, ties, d.noise, a.no_cache);
   if (terminal) fmt::print(stderr, "\r\033[K");
   Json json = gap::diagnosis_json(d);
   json["next_experiment"] = Json::array();
+  for (const gap::NextExperiment& n : next) {
+    json["next_experiment"].push_back({{"run", n.run}, {"separates", n.separates}});
+  }
   json["cost"] = {{"wall_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()},
                   {"simulated_s", d.simulated_s}};
   write_folder(out, a.force, [&](const fs::path& into) {
@@ -129,7 +157,7 @@ void run_diagnose(const DiagnoseArguments& a) {
     write_text_file(into / "provenance.json", provenance_json(a.recording, 0).dump(2) + "\n");
   });
   fmt::print("{}: {}\n{}Result in {}: diagnosis.json, twin.yaml; open {}/report.html\n", folder_name(a.recording),
-             recording.title, summary_text(d), out, out);
+             recording.title, summary_text(d, next), out, out);
 }
 
 }  // namespace

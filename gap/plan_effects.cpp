@@ -15,8 +15,10 @@ const EffectParameter* parameter_of(const Family& family) {
   return nullptr;
 }
 
-// Friction acts the more the smaller it is.
-bool acts_when_small(const std::string& parameter) { return parameter == "friction"; }
+// What acts the more the smaller it is.
+bool acts_when_small(const std::string& parameter) {
+  return parameter == "friction" || parameter == "ticks_per_revolution";
+}
 
 PlannedFamily planned(Family family) {
   PlannedFamily p;
@@ -36,19 +38,19 @@ PlannedFamily planned(Family family) {
   return p;
 }
 
-// Half way along the first leg of a run: a moment and the leg's number.
-struct HalfWay {
+// A moment of the first run: on a leg (the last one if there are fewer), at a share of its time.
+struct OnLeg {
   int leg = 1;
   double seconds_into_leg = 0;
   Pose2 X_WB;
 };
 
-HalfWay half_way(const Model& model, int wanted_leg) {
-  HalfWay at;
+OnLeg on_leg(const Model& model, int wanted_leg, double share) {
+  OnLeg at;
   for (const Stretch& s : model.stretches(0)) {
     if (s.kind != Stretch::Kind::leg || s.leg > wanted_leg) continue;
     at.leg = s.leg;
-    at.seconds_into_leg = (s.end_s - s.start_s) / 2;
+    at.seconds_into_leg = share * (s.end_s - s.start_s);
     const auto& truth = model.recording().runs[0].truth;
     std::size_t k = 0;
     while (k + 1 < truth.size() && truth[k].time_s < s.start_s + at.seconds_into_leg) ++k;
@@ -65,12 +67,15 @@ std::vector<PlannedFamily> planned_families(const Model& model, const std::set<s
   for (Family& f : plain_families(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution)) {
     all.push_back(planned(std::move(f)));
   }
-  const Pose2 under_wheel = half_way(model, 1).X_WB * Pose2{0, -recording.robot.wheelbase_m / 2, 0};
-  for (Family f : {bump_family(under_wheel.x_m, under_wheel.y_m, under_wheel.theta_rad),
-                   lift_family(under_wheel.x_m, under_wheel.y_m), patch_family(under_wheel.x_m, under_wheel.y_m)}) {
+  const Pose2 right_wheel{0, -recording.robot.wheelbase_m / 2, 0};
+  const Pose2 cable = on_leg(model, 1, 0.5).X_WB * right_wheel;
+  // Grip is needed where wheels speed up, stop and turn, not in between.
+  const Pose2 corner = on_leg(model, 1, 1).X_WB * right_wheel;
+  for (Family f : {bump_family(cable.x_m, cable.y_m, cable.theta_rad), lift_family(corner.x_m, corner.y_m),
+                   patch_family(corner.x_m, corner.y_m)}) {
     all.push_back(planned(std::move(f)));
   }
-  const HalfWay push = half_way(model, 2);
+  const OnLeg push = on_leg(model, 2, 0.5);
   all.push_back(planned(push_family(recording.runs[0].id, push.leg, push.seconds_into_leg)));
   all.back().in_first_run = true;
   std::erase_if(all, [&](const PlannedFamily& p) { return wanted.count(p.family.effect) == 0; });
@@ -88,7 +93,9 @@ bool plausible(const Effect& effect) {
   for (std::size_t i = 0; i < effect.info->parameters.size(); ++i) {
     const EffectParameter& p = effect.info->parameters[i];
     const double value = effect.values.numbers[i];
-    if (value != p.neutral && p.plausible_max > 0 && std::abs(value) > p.plausible_max) return false;
+    if (value == p.neutral) continue;
+    if (p.plausible_max > 0 && std::abs(value) > p.plausible_max) return false;
+    if (acts_when_small(p.name) && value < p.plausible_min) return false;
   }
   return true;
 }

@@ -19,8 +19,9 @@ struct PlannedFamily {
   double strong = 0;
 };
 
-/// Every family of the catalogue's effects in `wanted`. Events stand for all of their kind: what lies on the floor lies under
-/// the right wheel half way along the first leg of the first run, a push comes half way along a leg of the first run.
+/// Every family of the catalogue's effects in `wanted`. Events stand for all of their kind: a cable lies under
+/// the right wheel half way along the first leg of the first run, what takes the grip away lies at that leg's end, a push
+/// comes half way along the second leg.
 std::vector<PlannedFamily> planned_families(const Model& model, const std::set<std::string>& wanted);
 
 /// Effects of `wanted` that no family stands for: the diagnosis cannot name them.

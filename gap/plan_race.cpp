@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -29,6 +30,10 @@ class Racer {
     covariance_ = s.prior_sd.asDiagonal() * llt.solve(Eigen::MatrixXd::Identity(s.count, s.count)) *
                   s.prior_sd.asDiagonal();
     log_det_ = 2 * llt.matrixLLT().diagonal().array().log().sum();
+  }
+
+  Eigen::VectorXd mean(const Eigen::VectorXd& b) const {
+    return covariance_ * b.segment(signature_.first, signature_.count);
   }
 
   double score(const Eigen::VectorXd& b, double effect_cost) const {
@@ -89,38 +94,51 @@ struct Field {
   std::vector<std::size_t> effect_of;  // of each signature, its place among the effects
 };
 
-void run_one(const Field& field, std::size_t effect, Race& race) {
-  std::vector<const Signature*> variants;
-  for (std::size_t i = 0; i < field.signatures.size(); ++i) {
-    if (field.effect_of[i] == effect && field.signatures[i].planned.happens) variants.push_back(&field.signatures[i]);
-  }
+using Truths = std::function<FixedTruth(int draw, RandomStream& random)>;
+
+void run_one(const Field& field, std::size_t effect, const Truths& truths, Race& race) {
   RandomStream random(field.options.seed, "plan " + race.effects[effect]);
-  const Eigen::Index n = field.information.rows();
+  const Eigen::Index row = Eigen::Index(effect);
   const Eigen::Index effects = Eigen::Index(race.effects.size());
   Eigen::VectorXd best(effects);
+  Eigen::VectorXd z(field.information.rows());
   const double share = 1.0 / field.options.draws;
   for (int draw = 0; draw < field.options.draws; ++draw) {
-    const Signature& truth = *variants[std::size_t(draw) % variants.size()];
-    const Eigen::VectorXd numbers = drawn(truth, field.options.severity, random);
-    race.severity[Eigen::Index(effect)] += share * truth.severity(numbers);
-    Eigen::VectorXd z(n);
-    for (Eigen::Index i = 0; i < n; ++i) z[i] = random.normal();
+    const FixedTruth wrong = truths(draw, random);
+    const Signature& truth = field.signatures[wrong.signature];
+    race.severity[row] += share * truth.severity(wrong.numbers);
+    for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = random.normal();
     const Eigen::VectorXd b =
-        field.information.middleCols(truth.first, truth.count) * numbers + field.noise * z;
+        field.information.middleCols(truth.first, truth.count) * wrong.numbers + field.noise * z;
     best.setConstant(-1e300);
     for (std::size_t i = 0; i < field.racers.size(); ++i) {
+      if (field.effect_of[i] == race.effects.size()) continue;
       double& score = best[Eigen::Index(field.effect_of[i])];
       score = std::max(score, field.racers[i].score(b, field.thresholds.effect_cost));
     }
     Eigen::Index first = 0;
     const bool found = best.maxCoeff(&first) > field.thresholds.detect;
-    race.named(Eigen::Index(effect), found ? first : effects) += share;
+    race.named(row, found ? first : effects) += share;
     for (Eigen::Index j = 0; j < effects; ++j) {
-      if (best[j] > best[Eigen::Index(effect)] && best[j] > field.thresholds.detect) {
-        race.mistaken(Eigen::Index(effect), j) += share;
-      }
+      if (best[j] > best[row] && best[j] > field.thresholds.detect) race.mistaken(row, j) += share;
     }
   }
+}
+
+Race empty_race(std::vector<std::string> effects) {
+  const Eigen::Index n = Eigen::Index(effects.size());
+  return {std::move(effects), Eigen::MatrixXd::Zero(n, n + 1), Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+}
+
+Field field_of(const Race& race, const Eigen::MatrixXd& information, const std::vector<Signature>& signatures,
+               const Thresholds& thresholds, const RaceOptions& options) {
+  Field field{information, signatures, thresholds, options, root(information), {}, {}};
+  for (const Signature& s : signatures) {
+    field.racers.emplace_back(s, information);
+    const auto at = std::find(race.effects.begin(), race.effects.end(), s.planned.family.effect);
+    field.effect_of.push_back(std::size_t(at - race.effects.begin()));
+  }
+  return field;
 }
 
 }  // namespace
@@ -150,20 +168,69 @@ Eigen::MatrixXd information(const std::vector<RunGram>& grams, const std::vector
 
 Race race(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures, const Thresholds& thresholds,
           const RaceOptions& options) {
-  Race result;
-  result.effects = effects_in(signatures);
-  const Eigen::Index n = Eigen::Index(result.effects.size());
-  result.named = Eigen::MatrixXd::Zero(n, n + 1);
-  result.mistaken = Eigen::MatrixXd::Zero(n, n);
-  result.severity = Eigen::VectorXd::Zero(n);
-  Field field{information, signatures, thresholds, options, root(information), {}, {}};
-  for (const Signature& s : signatures) {
-    field.racers.emplace_back(s, information);
-    const auto at = std::find(result.effects.begin(), result.effects.end(), s.planned.family.effect);
-    field.effect_of.push_back(std::size_t(at - result.effects.begin()));
-  }
-  tbb::parallel_for(std::size_t(0), result.effects.size(), [&](std::size_t i) { run_one(field, i, result); });
+  Race result = empty_race(effects_in(signatures));
+  const Field field = field_of(result, information, signatures, thresholds, options);
+  tbb::parallel_for(std::size_t(0), result.effects.size(), [&](std::size_t effect) {
+    std::vector<std::size_t> variants;
+    for (std::size_t i = 0; i < signatures.size(); ++i) {
+      if (field.effect_of[i] == effect && signatures[i].planned.happens) variants.push_back(i);
+    }
+    const Truths by_turns = [&](int draw, RandomStream& random) {
+      const std::size_t i = variants[std::size_t(draw) % variants.size()];
+      return FixedTruth{i, drawn(signatures[i], options.severity, random)};
+    };
+    run_one(field, effect, by_turns, result);
+  });
   return result;
+}
+
+Race race_among(const std::vector<FixedTruth>& truths, const Eigen::MatrixXd& information,
+                const std::vector<Signature>& signatures, const Thresholds& thresholds, const RaceOptions& options) {
+  std::vector<std::string> effects;
+  for (const FixedTruth& t : truths) effects.push_back(signatures[t.signature].planned.family.effect);
+  Race result = empty_race(std::move(effects));
+  const Field field = field_of(result, information, signatures, thresholds, options);
+  tbb::parallel_for(std::size_t(0), truths.size(), [&](std::size_t i) {
+    run_one(field, i, [&](int, RandomStream&) { return truths[i]; }, result);
+  });
+  return result;
+}
+
+double expected_lead(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures, const FixedTruth& truth,
+                     const std::string& effect) {
+  const Signature& s = signatures[truth.signature];
+  const Eigen::VectorXd b = information.middleCols(s.first, s.count) * truth.numbers;
+  const double whole = truth.numbers.dot(b.segment(s.first, s.count));
+  double least = whole / 2;
+  for (const Signature& other : signatures) {
+    if (other.planned.family.effect != effect) continue;
+    const Eigen::VectorXd own = b.segment(other.first, other.count);
+    least = std::min(least, (whole - own.dot(Racer(other, information).mean(b))) / 2);
+  }
+  return least;
+}
+
+FixedTruth nearest(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures, const FixedTruth& truth,
+                   const std::string& effect) {
+  const Signature& s = signatures[truth.signature];
+  const Eigen::VectorXd b = information.middleCols(s.first, s.count) * truth.numbers;
+  const double whole = truth.numbers.dot(b.segment(s.first, s.count));
+  FixedTruth best;
+  double most = -1e300;
+  for (std::size_t i = 0; i < signatures.size(); ++i) {
+    const Signature& other = signatures[i];
+    if (other.planned.family.effect != effect) continue;
+    Eigen::VectorXd mean = Racer(other, information).mean(b);
+    for (Eigen::Index k = 0; k < mean.size(); ++k) {
+      if (other.positive[std::size_t(k)]) mean[k] = std::max(0.0, mean[k]);
+    }
+    const double gain = b.segment(other.first, other.count).dot(mean);
+    if (gain <= most) continue;
+    most = gain;
+    const double own = mean.dot(information.block(other.first, other.first, other.count, other.count) * mean);
+    best = {i, own > 0 ? Eigen::VectorXd(mean * std::sqrt(whole / own)) : mean};
+  }
+  return best;
 }
 
 }  // namespace umbsim::gap

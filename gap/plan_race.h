@@ -27,8 +27,28 @@ struct Race {
   Eigen::VectorXd severity;          ///< reached, mean over draws: less than asked where more is not plausible
 };
 
+/// What is wrong, exactly: numbers of one of the signatures.
+struct FixedTruth {
+  std::size_t signature = 0;
+  Eigen::VectorXd numbers;
+};
+
 /// Draws what is wrong and the noise, and lets the families race for the largest evidence with the diagnosis's costs.
 Race race(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures, const Thresholds& thresholds,
           const RaceOptions& options);
+
+/// The same where it is known what is wrong: one row for each of the truths' effects, the others stay empty. Only the effects
+/// of the truths are in the race.
+Race race_among(const std::vector<FixedTruth>& truths, const Eigen::MatrixXd& information,
+                const std::vector<Signature>& signatures, const Thresholds& thresholds, const RaceOptions& options);
+
+/// Half the squared distance, in standard deviations, of a truth from the nearest that any family of `effect` comes to it,
+/// which pays for its numbers: log evidence by which the truth is expected to be ahead.
+double expected_lead(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures, const FixedTruth& truth,
+                     const std::string& effect);
+
+/// The numbers of the family of `effect` that comes nearest to a truth, at the truth's own distance from no effect.
+FixedTruth nearest(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures, const FixedTruth& truth,
+                   const std::string& effect);
 
 }  // namespace umbsim::gap

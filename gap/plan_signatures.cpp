@@ -14,12 +14,25 @@ namespace {
 using Tracks = std::vector<std::vector<Pose2>>;
 
 constexpr int kBisections = 7;      // of the logarithm of a strength: to a few per cent of the whole range
-constexpr double kNearEnough = 0.15;  // relative error of a severity that is called reached
+constexpr double kMiss = 0.15;      // relative error of a severity that is called reached
+constexpr double kNearEnough = 0.8;  // share of a severity below which the tracks do not show it
 
 Eigen::VectorXd start_of(const Family& family) {
   Eigen::VectorXd p(Eigen::Index(family.parameters.size()));
   for (Eigen::Index i = 0; i < p.size(); ++i) p[i] = family.parameters[std::size_t(i)].start;
   return p;
+}
+
+// What changes a track at each of its samples, carried along the nominal one to first order. Two effects that move the robot
+// alike stay alike however large they are; differences of whole poses would tell them apart by their size.
+Eigen::VectorXd first_order(const TrackFilter& filter, const std::vector<Pose2>& nominal,
+                            const std::vector<Pose2>& changed) {
+  const auto local = [](const Pose2& d) { return Eigen::Vector3d(d.x_m, d.y_m, d.theta_rad); };
+  std::vector<Eigen::Vector3d> kicks{local(inverse(nominal[0]) * changed[0])};
+  for (std::size_t k = 1; k < nominal.size(); ++k) {
+    kicks.push_back(local(inverse(inverse(nominal[k - 1]) * nominal[k]) * (inverse(changed[k - 1]) * changed[k])));
+  }
+  return filter.propagate(kicks);
 }
 
 // Simulates families and looks at what they change.
@@ -66,10 +79,13 @@ class Workshop {
     append(signature.rows.steps, r.steps / unit);
     Eigen::VectorXd features(0);
     for (std::size_t run = 0; run < columns.size(); ++run) {
-      const Eigen::VectorXd column = (nominal_[run] - residual[run]) / unit;
+      Eigen::VectorXd column = (nominal_[run] - residual[run]) / unit;
+      const TrackFilter& filter = model_.filter(run);
+      const Eigen::Index own = 3 * Eigen::Index(filter.samples());
+      column.head(own) = filter.whiten(first_order(filter, model_.nominal_tracks()[run], changed[run])) / unit;
       append(columns[run], column);
       if (std::find(counted_.begin(), counted_.end(), run) == counted_.end()) continue;
-      const Eigen::Index more = column.size() - 3 * Eigen::Index(model_.filter(run).samples());
+      const Eigen::Index more = column.size() - own;
       features.conservativeResize(features.size() + more);
       features.tail(more) = column.tail(more);
     }
@@ -100,7 +116,7 @@ double bisected(const Workshop& shop, const PlannedFamily& planned, double wante
     const double middle = (low + high) / 2;
     p[0] = at(middle);
     const double size = shop.severity(planned, p);
-    if (std::abs(size / wanted - 1) < kNearEnough) return p[0];
+    if (std::abs(size / wanted - 1) < kMiss) return p[0];
     (size > wanted ? high : low) = middle;
   }
   return at(low);
@@ -108,7 +124,7 @@ double bisected(const Workshop& shop, const PlannedFamily& planned, double wante
 
 void add_bending(const Workshop& shop, double severity, Signature& s, std::vector<Eigen::MatrixXd>& columns) {
   Eigen::VectorXd p = start_of(s.planned.family);
-  if (s.planned.happens) p[0] = bisected(shop, s.planned, severity);
+  if (s.planned.happens && severity > 0) p[0] = bisected(shop, s.planned, severity);
   shop.add(s.planned, p, 1, s, columns);
   s.count = 1;
   s.prior_sd = Eigen::VectorXd::Ones(1);
@@ -144,7 +160,7 @@ void add_proportional(const Workshop& shop, double severity, Signature& s, std::
     Eigen::VectorXd p = start_of(s.planned.family);
     // Down only: a step up would change nothing.
     const double step = f.max <= p[i] ? -f.step : f.step;
-    p[i] += s.positive.back() ? by_proportion(shop, s.planned, i, severity) : step;
+    p[i] += s.positive.back() && severity > 0 ? by_proportion(shop, s.planned, i, severity) : step;
     shop.add(s.planned, p, p[i] - f.start, s, columns);
   }
 }
@@ -161,17 +177,15 @@ Eigen::MatrixXd shortened(const Eigen::MatrixXd& rows) {
 
 }  // namespace
 
-double Signature::severity(const Eigen::VectorXd& numbers) const {
-  const double seen_in_counts = features.size() > 0 ? (features * numbers).cwiseAbs().maxCoeff() : 0;
-  return std::max({(rows.whole * numbers).norm(), (rows.steps * numbers).norm(), seen_in_counts});
+double Signature::on_track(const Eigen::VectorXd& numbers) const {
+  return std::max((rows.whole * numbers).norm(), (rows.steps * numbers).norm());
 }
 
-Eigen::VectorXd Signature::at_severity(const Eigen::VectorXd& direction, double wanted) const {
-  const double size = severity(direction);
-  if (!(size > 0)) return direction;
-  // What was simulated at its size stays there.
-  if (!planned.family.from_zero) return Eigen::VectorXd::Ones(1);
-  Eigen::VectorXd numbers = direction * (wanted / size);
+double Signature::severity(const Eigen::VectorXd& numbers) const {
+  return std::max(on_track(numbers), features.size() > 0 ? (features * numbers).cwiseAbs().maxCoeff() : 0);
+}
+
+Eigen::VectorXd Signature::within_plausible(Eigen::VectorXd numbers) const {
   const auto beyond = [&] {
     for (Eigen::Index i = 0; i < numbers.size(); ++i) {
       const FreeParameter& f = planned.family.parameters[std::size_t(i)];
@@ -182,6 +196,20 @@ Eigen::VectorXd Signature::at_severity(const Eigen::VectorXd& direction, double 
   constexpr double kShrink = 0.9;
   for (int i = 0; i < 200 && beyond(); ++i) numbers *= kShrink;
   return numbers;
+}
+
+Eigen::VectorXd Signature::at_severity(const Eigen::VectorXd& direction, double wanted) const {
+  // What was simulated at its size stays there.
+  if (!planned.family.from_zero) return Eigen::VectorXd::Ones(1);
+  if (!(severity(direction) > 0)) return direction;
+  const double size = on_track(direction);
+  if (size > 0) {
+    const Eigen::VectorXd numbers = within_plausible(direction * (wanted / size));
+    if (on_track(numbers) > kNearEnough * wanted) return numbers;
+  }
+  constexpr double kTypical = 0.5;  // of the most that is plausible
+  constexpr double kFar = 1e6;
+  return kTypical * within_plausible(kFar * direction / severity(direction));
 }
 
 Signatures::Signatures(const Model& model, const std::vector<PlannedFamily>& families,

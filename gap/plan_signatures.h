@@ -18,10 +18,14 @@ struct Signature {
   SizeRows rows;                ///< severity's rows by number, one column each
   Eigen::MatrixXd features;     ///< of counts and habits, in standard deviations, by number
 
-  /// Severity at these numbers: the largest of tracks, their steps, and what commands and counts show.
+  /// Severity at these numbers, in the tracks or their steps.
+  double on_track(const Eigen::VectorXd& numbers) const;
+  /// The same or, if larger, in what commands and counts show, in standard deviations.
   double severity(const Eigen::VectorXd& numbers) const;
-  /// The numbers at which this direction has the wanted severity, or the most that is plausible.
+  /// The numbers at which this direction has the wanted severity on the tracks; where no plausible size has, half of the
+  /// most that is plausible, for it shows in commands and counts or not at all.
   Eigen::VectorXd at_severity(const Eigen::VectorXd& direction, double wanted) const;
+  Eigen::VectorXd within_plausible(Eigen::VectorXd numbers) const;
 };
 
 /// What the effects do to the tracks of a model's runs, before any data: whitened, seen from the nominal robot.
@@ -30,7 +34,8 @@ struct Signatures {
   std::vector<Eigen::MatrixXd> columns;  ///< per run
 
   /// An effect that bends the simulator, or cannot be negative, is simulated at the wanted severity and its secant taken;
-  /// any other is simulated at its family's step. `counted`: runs that a severity is measured on.
+  /// any other is simulated at its family's step. `counted`: runs that a severity is measured on. `severity` 0: all at the
+  /// families' own steps and starts, where the search has simulated them already.
   Signatures(const Model& model, const std::vector<PlannedFamily>& families, const std::vector<std::size_t>& counted,
              double severity, double radius_scatter);
 };
