@@ -100,7 +100,7 @@ std::string summary_text(const gap::Diagnosis& d, const std::vector<gap::NextExp
 // What to drive next, where something is tied: the menu is driven by the nominal robot.
 std::vector<gap::NextExperiment> next_runs(const Scenario& scenario, const Recording& recording, const gap::Ties& ties,
                                            const gap::NoiseModel& noise, bool no_cache) {
-  if (ties.members.size() < 2) return {};
+  if (ties.members.size() <= ties.own) return {};
   const std::vector<gap::MenuRun> menu = menu_for(scenario, recording.path);
   Recording without_runs = recording;
   without_runs.runs.clear();

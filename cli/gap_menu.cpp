@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiment/planned_runs.h"
+#include "gap/check.h"
 
 namespace umbsim {
 namespace {
@@ -57,7 +58,7 @@ Recording with_menu(Recording recording, const Scenario& scenario, const std::ve
     planned.path.angular_speed_radps = m.angular_speed_radps;
     recording.runs.push_back(drive_planned_runs(s, robot, std::move(planned)).runs.front());
   }
-  return recording;
+  return gap::with_moments_between(std::move(recording));
 }
 
 }  // namespace umbsim

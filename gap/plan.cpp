@@ -68,7 +68,7 @@ Plan plan(const Model& model, std::size_t given, double radius_scatter, const Pl
   const std::vector<Eigen::VectorXd> residual = model.residuals(model.nominal_tracks(), {});
   const std::vector<RunGram> grams = model.grams(residual, signatures.columns);
   const auto judged = [&](const std::vector<std::size_t>& runs, int draws) {
-    const Eigen::MatrixXd A = information(grams, runs, signatures.all, model.nuisance_sd());
+    const Eigen::MatrixXd A = information(grams, runs, signatures, model.nuisance_sd());
     return separation(race(A, signatures.all, Thresholds{}, {options.severity, draws, options.seed}), options);
   };
   p.given = judged(asked, options.draws);

@@ -120,7 +120,8 @@ void run_one(const Field& field, std::size_t effect, const Truths& truths, Race&
     const bool found = best.maxCoeff(&first) > field.thresholds.detect;
     race.named(row, found ? first : effects) += share;
     for (Eigen::Index j = 0; j < effects; ++j) {
-      if (best[j] > best[row] && best[j] > field.thresholds.detect) race.mistaken(row, j) += share;
+      if (j == row || best[j] < best[row] || best[j] <= field.thresholds.detect) continue;
+      race.mistaken(row, j) += best[j] > best[row] ? share : share / 2;
     }
   }
 }
@@ -144,13 +145,13 @@ Field field_of(const Race& race, const Eigen::MatrixXd& information, const std::
 }  // namespace
 
 Eigen::MatrixXd information(const std::vector<RunGram>& grams, const std::vector<std::size_t>& runs,
-                            const std::vector<Signature>& signatures, const Eigen::VectorXd& nuisance_sd) {
+                            const Signatures& signatures, const Eigen::VectorXd& nuisance_sd) {
   const Eigen::Index nuisances = nuisance_sd.size();
   const Eigen::Index size = grams.front().products.rows() - 1;  // without the residual
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t position = 0; position < runs.size(); ++position) {
     Eigen::VectorXd scale = Eigen::VectorXd::Ones(size);
-    for (const Signature& s : signatures) {
+    for (const Signature& s : signatures.all) {
       if (s.planned.in_first_run && position > 0) scale.segment(nuisances + s.first, s.count).setZero();
       // Simulated as run number runs[position], driven as number `position`.
       if (s.planned.by_run_number && runs[position] > 0) {
@@ -160,6 +161,7 @@ Eigen::MatrixXd information(const std::vector<RunGram>& grams, const std::vector
     A += scale.asDiagonal() * grams[runs[position]].products.bottomRightCorner(size, size) * scale.asDiagonal();
   }
   const Eigen::Index effects = size - nuisances;
+  A.bottomRightCorner(effects, effects) += signatures.habits.transpose() * signatures.habits;
   Eigen::MatrixXd M = nuisance_sd.asDiagonal() * A.topLeftCorner(nuisances, nuisances) * nuisance_sd.asDiagonal();
   M.diagonal().array() += 1;
   const Eigen::MatrixXd cross = nuisance_sd.asDiagonal() * A.topRightCorner(nuisances, effects);
@@ -210,6 +212,13 @@ double expected_lead(const Eigen::MatrixXd& information, const std::vector<Signa
   return least;
 }
 
+namespace {
+
+constexpr double kFarthest = 2;    // times the size at which a bending effect was simulated
+constexpr double kEnough = 0.25;   // share of a truth's squared size that another effect must be able to have
+
+}  // namespace
+
 FixedTruth nearest(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures, const FixedTruth& truth,
                    const std::string& effect) {
   const Signature& s = signatures[truth.signature];
@@ -227,8 +236,16 @@ FixedTruth nearest(const Eigen::MatrixXd& information, const std::vector<Signatu
     const double gain = b.segment(other.first, other.count).dot(mean);
     if (gain <= most) continue;
     most = gain;
-    const double own = mean.dot(information.block(other.first, other.first, other.count, other.count) * mean);
-    best = {i, own > 0 ? Eigen::VectorXd(mean * std::sqrt(whole / own)) : mean};
+    const auto square = [&](const Eigen::VectorXd& p) {
+      return p.dot(information.block(other.first, other.first, other.count, other.count) * p);
+    };
+    best = {i, {}};
+    if (!(square(mean) > 0)) continue;
+    const Eigen::VectorXd alike = mean * std::sqrt(whole / square(mean));
+    // A bending effect is known near the size at which it was simulated only.
+    const bool bends = !other.planned.family.from_zero;
+    const Eigen::VectorXd plausible = bends ? alike.cwiseMin(kFarthest) : other.within_plausible(alike);
+    if (square(plausible) > kEnough * whole) best.numbers = plausible;
   }
   return best;
 }

@@ -11,7 +11,7 @@ namespace umbsim::gap {
 /// Inner products of the effects' columns over a set of runs, each over the covariance of everything that is no effect:
 /// noise, scatter from run to run, nuisances. With data y = X p + e, X' C^-1 y ~ N(information p, information).
 Eigen::MatrixXd information(const std::vector<RunGram>& grams, const std::vector<std::size_t>& runs,
-                            const std::vector<Signature>& signatures, const Eigen::VectorXd& nuisance_sd);
+                            const Signatures& signatures, const Eigen::VectorXd& nuisance_sd);
 
 struct RaceOptions {
   double severity = 3;     ///< of what is wrong, in noise floors
@@ -47,7 +47,8 @@ Race race_among(const std::vector<FixedTruth>& truths, const Eigen::MatrixXd& in
 double expected_lead(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures, const FixedTruth& truth,
                      const std::string& effect);
 
-/// The numbers of the family of `effect` that comes nearest to a truth, at the truth's own distance from no effect.
+/// The numbers of the family of `effect` that comes nearest to a truth, at the truth's own distance from no effect; no numbers
+/// where no plausible size is as far.
 FixedTruth nearest(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures, const FixedTruth& truth,
                    const std::string& effect);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <Eigen/Eigenvalues>
 #include <tbb/parallel_for.h>
@@ -225,6 +226,10 @@ Signatures::Signatures(const Model& model, const std::vector<PlannedFamily>& fam
     s.rows = {shortened(s.rows.whole), shortened(s.rows.steps)};
     all.push_back(std::move(s));
   }
+  // In a model they stand with its first run, which need not be in every set.
+  const Eigen::Index shared = Eigen::Index(std::tuple_size_v<Habits>);
+  habits = columns.front().bottomRows(shared);
+  columns.front().bottomRows(shared).setZero();
 }
 
 }  // namespace umbsim::gap

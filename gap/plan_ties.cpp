@@ -89,13 +89,15 @@ Ties find_ties(const Model& model, const Diagnosis& d, const std::set<std::strin
   ties.families = families_of(model, d, excluded);
   const Signatures signatures(model, ties.families, model.all_runs(), 0, kScatter);
   const auto grams = model.grams(model.residuals(model.nominal_tracks(), {}), signatures.columns);
-  const Eigen::MatrixXd A = information(grams, model.all_runs(), signatures.all, model.nuisance_sd());
+  const Eigen::MatrixXd A = information(grams, model.all_runs(), signatures, model.nuisance_sd());
   const std::vector<std::string> own = effects_of_name(first.name);
   const auto add = [&](const std::string& effect, const FixedTruth& size) {
     if (holds(ties.members, effect) || size.numbers.size() == 0) return;
     ties.members.push_back(effect);
     ties.sizes.push_back(size);
   };
+  for (const std::string& effect : own) add(effect, as_fitted(signatures.all, first, effect));
+  ties.own = ties.members.size();
   for (const std::string& effect : own) {
     const FixedTruth truth = as_fitted(signatures.all, first, effect);
     if (truth.numbers.size() == 0) continue;
@@ -105,12 +107,11 @@ Ties find_ties(const Model& model, const Diagnosis& d, const std::set<std::strin
       if (other != effect && size.numbers.size() > 0) others.push_back(size);
     }
     const Eigen::MatrixXd left = without(A, signatures.all, others);
-    add(effect, truth);
     std::vector<std::string> group{effect};
     for (const EffectInfo& info : catalogue()) {
       if (holds(own, info.name)) continue;
       const FixedTruth rival = nearest(left, signatures.all, truth, info.name);
-      if (rival.numbers.size() == 0 || !(rival.numbers.norm() > 0)) continue;
+      if (rival.numbers.size() == 0) continue;
       const Race race = race_among({truth, rival}, left, signatures.all, t, {0, kDraws, 1});
       if ((race.mistaken(0, 1) + race.mistaken(1, 0)) / 2 <= alike) continue;
       group.push_back(info.name);
@@ -145,10 +146,10 @@ std::vector<NextExperiment> next_experiments(const Model& menu, const std::vecto
   const Signatures signatures(menu, ties.families, menu.all_runs(), 0, kScatter);
   const auto grams = menu.grams(menu.residuals(menu.nominal_tracks(), {}), signatures.columns);
   for (std::size_t r = 0; r + 1 < labels.size(); r += 2) {
-    const Eigen::MatrixXd A = information(grams, {r, r + 1}, signatures.all, menu.nuisance_sd());
+    const Eigen::MatrixXd A = information(grams, {r, r + 1}, signatures, menu.nuisance_sd());
     NextExperiment next{labels[r].substr(0, labels[r].rfind(',')) + ", cw and ccw", {}, 0};
     for (std::size_t i = 0; i < ties.members.size(); ++i) {
-      for (std::size_t j = i + 1; j < ties.members.size(); ++j) {
+      for (std::size_t j = std::max(i + 1, ties.own); j < ties.members.size(); ++j) {
         const double lead = std::min(expected_lead(A, signatures.all, ties.sizes[i], ties.members[j]),
                                      expected_lead(A, signatures.all, ties.sizes[j], ties.members[i]));
         if (lead < t.tie) continue;

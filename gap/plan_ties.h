@@ -11,7 +11,8 @@ namespace umbsim::gap {
 
 /// Effects that a diagnosis could have mistaken for its first cause, by prediction for these very runs at the fitted sizes.
 struct Ties {
-  std::vector<std::string> members;    ///< the tied effects and those of the set, the first cause's first
+  std::size_t own = 0;                 ///< members that the first cause is made of: no rivals of each other
+  std::vector<std::string> members;    ///< those, then effects tied with them or in the set
   std::vector<FixedTruth> sizes;       ///< of each, as fitted or as near to the first as it comes
   std::vector<PlannedFamily> families; ///< that `sizes` refer to, in the order of their signatures
   std::vector<std::vector<std::string>> groups;  ///< for `indistinguishable`
