@@ -50,6 +50,7 @@ Separation separation(Race race, const PlanOptions& options) {
     for (Eigen::Index j = i + 1; j < n; ++j) {
       const bool mistaken = alike(i, j) > options.alike;
       if (mistaken) s.alike.push_back({{race.effects[std::size_t(i)], race.effects[std::size_t(j)]}, alike(i, j)});
+      if (std::min(race.severity[i], race.severity[j]) < options.least) continue;
       if (!mistaken && found[i] >= options.shown && found[j] >= options.shown) ++s.separated;
       s.soft += (1 - std::min(1.0, 2 * alike(i, j))) * found[i] * found[j];
     }

@@ -14,6 +14,7 @@ struct PlanOptions {
   double severity = 3;            ///< of each, in noise floors of the runs that are asked about
   double alike = 0.1;             ///< probability of naming one for the other, mean of both ways, above which they are
   double shown = 0.5;             ///< probability of being found at all, below which an effect is not shown
+  double least = 0.5;             ///< severity below which an effect does not count: it cannot be expected to show
   int draws = 400;
   std::uint64_t seed = 1;
 };
@@ -26,7 +27,7 @@ struct Separation {
   std::vector<std::pair<Pair, double>> alike;    ///< with the probability of a mistake
   std::vector<std::vector<std::string>> groups;  ///< that such pairs join together
   std::vector<std::string> not_shown;
-  int separated = 0;   ///< pairs of effects that are both shown and not alike
+  int separated = 0;   ///< pairs of effects that are both shown and not alike, of those that can be expected to show
   double soft = 0;     ///< the same as a sum of probabilities
 };
 
