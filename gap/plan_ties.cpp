@@ -90,6 +90,7 @@ Ties find_ties(const Model& model, const Diagnosis& d, const std::set<std::strin
   const Signatures signatures(model, ties.families, model.all_runs(), 0, kScatter);
   const auto grams = model.grams(model.residuals(model.nominal_tracks(), {}), signatures.columns);
   const Eigen::MatrixXd A = information(grams, model.all_runs(), signatures, model.nuisance_sd());
+  ties.information = A;
   const std::vector<std::string> own = effects_of_name(first.name);
   const auto add = [&](const std::string& effect, const FixedTruth& size) {
     if (holds(ties.members, effect) || size.numbers.size() == 0) return;
@@ -146,12 +147,16 @@ std::vector<NextExperiment> next_experiments(const Model& menu, const std::vecto
   const Signatures signatures(menu, ties.families, menu.all_runs(), 0, kScatter);
   const auto grams = menu.grams(menu.residuals(menu.nominal_tracks(), {}), signatures.columns);
   for (std::size_t r = 0; r + 1 < labels.size(); r += 2) {
-    const Eigen::MatrixXd A = information(grams, {r, r + 1}, signatures, menu.nuisance_sd());
+    // A load says nothing by itself, only beside runs without it. Nuisances of the two are taken as independent.
+    const Eigen::MatrixXd A = ties.information + information(grams, {r, r + 1}, signatures, menu.nuisance_sd());
     NextExperiment next{labels[r].substr(0, labels[r].rfind(',')) + ", cw and ccw", {}, 0};
     for (std::size_t i = 0; i < ties.members.size(); ++i) {
       for (std::size_t j = std::max(i + 1, ties.own); j < ties.members.size(); ++j) {
-        const double lead = std::min(expected_lead(A, signatures.all, ties.sizes[i], ties.members[j]),
-                                     expected_lead(A, signatures.all, ties.sizes[j], ties.members[i]));
+        const auto gained = [&](std::size_t truth, std::size_t other) {
+          return expected_lead(A, signatures.all, ties.sizes[truth], ties.members[other]) -
+                 expected_lead(ties.information, signatures.all, ties.sizes[truth], ties.members[other]);
+        };
+        const double lead = std::min(gained(i, j), gained(j, i));
         if (lead < t.tie) continue;
         for (const std::string& e : {ties.members[i], ties.members[j]}) {
           if (!holds(next.separates, e)) next.separates.push_back(e);

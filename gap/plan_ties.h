@@ -15,6 +15,7 @@ struct Ties {
   std::vector<std::string> members;    ///< those, then effects tied with them or in the set
   std::vector<FixedTruth> sizes;       ///< of each, as fitted or as near to the first as it comes
   std::vector<PlannedFamily> families; ///< that `sizes` refer to, in the order of their signatures
+  Eigen::MatrixXd information;         ///< of their signatures in the recorded runs
   std::vector<std::vector<std::string>> groups;  ///< for `indistinguishable`
   std::vector<std::string> could_be;   ///< effects that would often be named as the first cause, for `set`
 };
@@ -34,7 +35,7 @@ struct NextExperiment {
   double lead = 0;  ///< log evidence that it is expected to add, over the pairs that it separates
 };
 
-/// `menu`: a model of the menu's runs alone; `labels`: of its runs, cw and ccw of one kind one after the other. Kinds that
+/// By the log evidence that is expected on top of that of the recorded runs. `menu`: a model of the menu's runs alone; `labels`: of its runs, cw and ccw of one kind one after the other. Kinds that
 /// separate nothing are left out, the best three are kept.
 std::vector<NextExperiment> next_experiments(const Model& menu, const std::vector<std::string>& labels, const Ties& ties,
                                              const Thresholds& thresholds);
