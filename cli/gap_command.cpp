@@ -17,9 +17,11 @@
 #include "experiment/result_json.h"
 #include "experiment/run_folder.h"
 #include "gap/check.h"
+#include "gap/clock.h"
 #include "gap/diagnosis_json.h"
 #include "gap/diagnosis_progress.h"
 #include "gap/plan_ties.h"
+#include "gap/remembered.h"
 #include "gap/tracks_json.h"
 #include "report/report.h"
 
@@ -106,7 +108,7 @@ std::vector<gap::NextExperiment> next_runs(const Scenario& scenario, const Recor
   without_runs.runs.clear();
   const Recording driven = with_menu(std::move(without_runs), scenario, menu);
   const Replay replay(scenario, driven);
-  const gap::Model model(driven, cached_gap_simulator(replay, no_cache), gap::Scatter{}, noise);
+  const gap::Model model(driven, gap::remembered(cached_gap_simulator(replay, no_cache), driven), gap::Scatter{}, noise);
   std::vector<std::string> labels;
   for (const gap::MenuRun& m : menu) labels.push_back(m.label);
   return gap::next_experiments(model, labels, ties, gap::Thresholds{});
@@ -121,20 +123,33 @@ std::string page(const gap::Model& model, const gap::Diagnosis& d, const Json& j
   return render_gap_report(data);
 }
 
+// With poses between end points, and a tracker's own clock set to the encoders'.
+Recording followed_through(const Recording& given, std::vector<std::string>& limits) {
+  Recording recording = gap::with_moments_between(given);
+  if (!gap::tracker_is_free(recording) || recording.truth_kind != "track") return recording;
+  gap::ClocksAligned aligned = gap::with_clocks_aligned(std::move(recording));
+  if (aligned.most_offset_s > 0) {
+    limits.push_back(fmt::format("the tracker's clock was moved by up to {:.0f} ms and {:.2f} % to agree with the encoders': "
+                                 "latency and clock cannot be told apart", 1000 * aligned.most_offset_s,
+                                 100 * aligned.most_rate));
+  }
+  return std::move(aligned.recording);
+}
+
 void run_diagnose(const DiagnoseArguments& a) {
   const auto start = std::chrono::steady_clock::now();
   const std::string out = a.out.empty() ? "results/" + folder_name(a.recording) + "-diagnosis" : a.out;
   for (const std::string& e : a.excluded) find_effect(e);
   const Recording given = read_recording(a.recording);
-  const std::vector<std::string> limits = gap::check_recording(given, a.recording);
-  const Recording recording = gap::with_moments_between(given);
+  std::vector<std::string> limits = gap::check_recording(given, a.recording);
+  const Recording recording = followed_through(given, limits);
   const Scenario scenario = a.scenario.empty() ? scenario_of(recording, a.recording) : read_scenario(a.scenario);
   prepare_output_folder(out, a.force);
   const Replay replay(scenario, recording);
   const bool terminal = isatty(2) != 0;
   gap::DiagnosisProgress progress(recording.runs.size(), terminal ? show_stage : [](double, const std::string&, double) {});
   const gap::Say say = [&](const std::string& stage) { progress.stage(stage); };
-  const gap::Model model(recording, progress.counted(cached_gap_simulator(replay, a.no_cache)), gap::Scatter{});
+  const gap::Model model(recording, gap::remembered(progress.counted(cached_gap_simulator(replay, a.no_cache)), recording), gap::Scatter{});
   const std::set<std::string> excluded(a.excluded.begin(), a.excluded.end());
   gap::Diagnosis d = gap::diagnose(model, excluded, gap::Thresholds{}, say);
   d.limits = limits;

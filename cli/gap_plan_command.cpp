@@ -13,6 +13,7 @@
 #include "experiment/run_folder.h"
 #include "gap/check.h"
 #include "gap/plan_json.h"
+#include "gap/remembered.h"
 
 namespace umbsim {
 namespace {
@@ -81,12 +82,12 @@ Subject of_recording(const std::string& folder, bool no_cache) {
   s.recording = gap::with_moments_between(given);
   s.scenario = scenario_of(s.recording, folder);
   const Replay replay(s.scenario, s.recording);
-  const gap::Model model(s.recording, cached_gap_simulator(replay, no_cache), s.scatter);
+  const gap::Model model(s.recording, gap::remembered(cached_gap_simulator(replay, no_cache), s.recording), s.scatter);
   s.noise = model.noise();
   Recording nominal = s.recording;
   for (std::size_t r = 0; r < nominal.runs.size(); ++r) {
     for (std::size_t k = 0; k < nominal.runs[r].truth.size(); ++k) {
-      nominal.runs[r].truth[k].X_WB = model.nominal_tracks()[r][k];
+      nominal.runs[r].truth[k].X_WB = model.nominal().tracks[r][k];
     }
   }
   s.recording = std::move(nominal);
@@ -122,7 +123,7 @@ void plan(const PlanArguments& a) {
   const Recording all = with_menu(s.recording, s.scenario, menu);
   context.durations_s = durations_s(all);
   const Replay replay(s.scenario, all);
-  const gap::Model model(all, cached_gap_simulator(replay, a.no_cache), s.scatter, s.noise);
+  const gap::Model model(all, gap::remembered(cached_gap_simulator(replay, a.no_cache), all), s.scatter, s.noise);
   const gap::Plan result = gap::plan(model, context.given, s.scatter.radius, options);
   write_folder(out, a.force, [&](const fs::path& into) {
     write_text_file(into / "plan.json", gap::plan_json(result, context, options, s.noise).dump(1) + "\n");

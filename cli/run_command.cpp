@@ -1,6 +1,8 @@
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include "cli/commands.h"
 #include "cli/exit.h"
@@ -34,6 +36,8 @@ void run(const RunArguments& a) {
   const Scenario scenario = read_scenario(a.scenario, a.settings);
   const std::string out = a.out.empty() ? "results/" + scenario.name : a.out;
   prepare_output_folder(out, a.force);
+  std::optional<tbb::global_control> limit;  // of writing, too
+  if (a.jobs > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(a.jobs));
   const ExperimentResult result = run_experiment(scenario, a.jobs);
   write_run_folder(result, render_report(report_json(result)), out, a.force);
   const std::vector<Check> checks = check(result);

@@ -1,5 +1,6 @@
 // The catalogue: one line for each effect. The values in a line, in order: parameter, unit, member, bounds, plausible
-// magnitudes from and to, typical value; then lecture, source, description, signature, confused with.
+// magnitudes from and to, typical value; then lecture, source, description, signature, confused with. Long, for it is one
+// table of 28 effects and nothing else.
 #include "effects/catalogue.h"
 #include "effects/contact.h"
 #include "effects/drivetrain.h"

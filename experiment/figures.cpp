@@ -37,8 +37,10 @@ ExperimentResult complete_result() {
   r.scenario.uncertainty = {1, 1};
   r.cw.errors.resize(2);
   r.ccw.errors.resize(2);
-  r.umbmark = Umbmark{r.cw, r.ccw};
-  r.extended = ExtendedUmbmark{r.cw, r.ccw};
+  r.umbmark.emplace().cw = r.cw;
+  r.umbmark->ccw = r.ccw;
+  r.extended.emplace().cw = r.cw;
+  r.extended->ccw = r.ccw;
   for (const char* direction : {"cw", "ccw"}) {
     RecordedRun run;
     run.direction = direction;

@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 
 #include "core/random.h"
+#include "gap/noise_floor.h"
 
 namespace umbsim::gap {
 namespace {
@@ -35,7 +36,7 @@ TrackError aligned_error(const Model& model, std::size_t run, const std::vector<
   TrackError result;
   double seen = 0;
   for (std::size_t k = 0; k < filter.samples(); ++k) {
-    if (!model.observed(run, k)) continue;
+    if (!model.nominal().seen[run][k]) continue;
     result.mean_square_m2 += error.segment<2>(3 * Eigen::Index(k)).squaredNorm();
     seen += 1;
   }
@@ -44,37 +45,7 @@ TrackError aligned_error(const Model& model, std::size_t run, const std::vector<
   return result;
 }
 
-// Mean over the run of the variance of position that noise makes, with the start known.
-double floor_m2(const Model& model, std::size_t run) {
-  const auto& path = model.nominal_tracks()[run];
-  const NoiseModel& n = model.noise();
-  Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
-  double sum = 0;
-  double seen = 0;
-  for (std::size_t k = 0; k < path.size(); ++k) {
-    if (k > 0) {
-      const Pose2 u = inverse(path[k - 1]) * path[k];
-      const double c = std::cos(u.theta_rad);
-      const double s = std::sin(u.theta_rad);
-      Eigen::Matrix3d T;
-      T << c, s, -c * u.y_m + s * u.x_m, -s, c, s * u.y_m + c * u.x_m, 0, 0, 1;
-      P = (T * P * T.transpose()).eval();
-      P.diagonal() += model.rolled(run)[k] * Eigen::Vector3d(n.along_m2_pm, n.across_m2_pm, n.heading_rad2_pm);
-    }
-    if (!model.observed(run, k)) continue;
-    sum += P(0, 0) + P(1, 1) + 2 * n.position_sd_m * n.position_sd_m;
-    seen += 1;
-  }
-  return sum / std::max(1.0, seen);
-}
-
 }  // namespace
-
-double noise_floor_m(const Model& model) {
-  double sum = 0;
-  for (const std::size_t r : model.all_runs()) sum += floor_m2(model, r);
-  return std::sqrt(sum / double(model.all_runs().size()));
-}
 
 double mean_square_error_m2(const Model& model, const std::vector<std::vector<Pose2>>& tracks) {
   double sum = 0;
@@ -82,24 +53,12 @@ double mean_square_error_m2(const Model& model, const std::vector<std::vector<Po
   return sum / double(tracks.size());
 }
 
-double displacement_m(const std::vector<std::vector<Pose2>>& a, const std::vector<std::vector<Pose2>>& b) {
-  double sum = 0;
-  for (std::size_t r = 0; r < a.size(); ++r) {
-    double run = 0;
-    for (std::size_t k = 0; k < a[r].size(); ++k) {
-      run += std::pow(a[r][k].x_m - b[r][k].x_m, 2) + std::pow(a[r][k].y_m - b[r][k].y_m, 2);
-    }
-    sum += run / double(std::max<std::size_t>(1, a[r].size())) / double(a.size());
-  }
-  return std::sqrt(sum);
-}
-
 Closure held_out_closure(const Model& model, const Fit& fit) {
   Closure closure;
   const std::size_t runs = model.all_runs().size();
   std::map<std::string, std::vector<std::size_t>> conditions;
   for (const std::size_t r : model.all_runs()) {
-    conditions[model.conditions()[r] + model.recording().runs[r].direction].push_back(r);
+    conditions[model.nominal().conditions[r] + model.recording().runs[r].direction].push_back(r);
   }
   if (fit.families.empty() || conditions.size() < 2) return closure;
   std::vector<double> before(runs);
@@ -114,11 +73,11 @@ Closure held_out_closure(const Model& model, const Fit& fit) {
     }
     const std::vector<Effect> effects = model.fitted_on(fit, rest);
     for (const std::size_t r : held) {
-      const TrackError plain = aligned_error(model, r, model.nominal_tracks()[r]);
+      const TrackError plain = aligned_error(model, r, model.nominal().tracks[r]);
       const TrackError with = aligned_error(model, r, model.simulate_run(r, effects));
       before[r] = plain.mean_square_m2;
       after[r] = with.mean_square_m2;
-      floor[r] = floor_m2(model, r);
+      floor[r] = noise_floor_m2(model.nominal(), model.noise(), r);
       before_rad2 += plain.end_rad * plain.end_rad / double(runs);
       after_rad2 += with.end_rad * with.end_rad / double(runs);
     }

@@ -11,10 +11,4 @@ Closure held_out_closure(const Model& model, const Fit& fit);
 /// Mean square position error of simulated tracks against the recorded ones, start poses aligned, m^2.
 double mean_square_error_m2(const Model& model, const std::vector<std::vector<Pose2>>& tracks);
 
-/// Root mean square displacement between two sets of tracks, metres.
-double displacement_m(const std::vector<std::vector<Pose2>>& a, const std::vector<std::vector<Pose2>>& b);
-
-/// Root mean square position error that the run-to-run noise alone makes along the runs, metres.
-double noise_floor_m(const Model& model);
-
 }  // namespace umbsim::gap

@@ -14,7 +14,6 @@
 namespace umbsim::gap {
 namespace {
 
-// Names that stand for more than themselves in this recording: effects whose signatures here are the same.
 constexpr double kOverconfidence = 2;  // evidence is divided by this before it becomes probability
 
 double tail(double chi_squared, double degrees_of_freedom) {
@@ -61,6 +60,13 @@ std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, con
     if (pays) kept.push_back(std::move(fit));
   }
   return kept;
+}
+
+// What the tracks stray beyond noise and nuisances, as log evidence for something else, as long as the noise is known from
+// repeated runs.
+double lack_of_fit(const Model& model, const Fit& fit, const Thresholds& t) {
+  if (!model.replicated()) return 0;
+  return std::max(0.0, fit.misfit - (1 + t.noise_error) * model.rows()) / 2;
 }
 
 // A combination that predicts held-out runs worse than something simpler gives way to it.
@@ -131,23 +137,30 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   prefer_what_predicts(model, d.causes);
   say("what no effect explains");
   const double generic_none = generic_gain(model, none);
-  const double gap = std::max(d.causes.front().name == "none" ? 0 : d.causes.front().score, generic_none);
+  const double lack_none = lack_of_fit(model, none, t);
+  const double gap = std::max(d.causes.front().name == "none" ? 0 : d.causes.front().score, std::max(generic_none, lack_none));
   d.detected = gap > t.detect;
   d.p_value = tail(2 * std::max(0.0, gap), 2);
   d.noise = model.noise();
-  d.noise_floor_mm = 1000 * noise_floor_m(model);
+  d.noise_floor_mm = 1000 * model.noise_floor_m();
   if (!d.detected) {
     const auto at = std::find_if(d.causes.begin(), d.causes.end(), [](const Cause& c) { return c.name == "none"; });
     std::rotate(d.causes.begin(), at, at + 1);
     d.causes.front().score = std::max(d.causes.front().score, d.causes.size() > 1 ? d.causes[1].score + t.effect_cost : 0);
   }
   const Fit best = d.causes.front().fit;
-  const double leftover = generic_gain(model, best);
+  const double lack = lack_of_fit(model, best, t);
+  const double left_generic = generic_gain(model, best);
+  const double leftover = std::max(left_generic, lack);
   const double explained = best.log_evidence - none.log_evidence;
   d.unexplained = d.detected && leftover > t.detect;
   d.unexplained_p = tail(2 * std::max(0.0, leftover), 2);
   if (d.detected) {
-    const bool unknown = d.unexplained && explained < t.known_share * (explained + leftover);
+    // An explanation that leaves much, or that foretells nothing of the other conditions, is none.
+    d.closure = held_out_closure(model, best);
+    const bool foretells = !d.closure.known || d.closure.ci95[1] > t.least_closure;
+    const bool unknown = d.unexplained && (!foretells || explained < t.known_share * (explained + left_generic) ||
+                                           lack > t.misfit_left * lack_none);
     Cause cause{"unknown", best, 0, 0};
     cause.fit.families.clear();
     cause.score = unknown ? d.causes.front().score + 0.5 * leftover : generic_none - 2 * t.effect_cost;
@@ -157,10 +170,10 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     if (d.unexplained) d.left_over = describe_left_over(model, best);
   }
   give_probabilities(d.causes);
-  const double before_m2 = mean_square_error_m2(model, none.tracks);
+  const double before_m2 = mean_square_error_m2(model, none.predicted.tracks);
   d.before_mm = 1000 * std::sqrt(before_m2);
   for (Cause& c : d.causes) {
-    if (!c.fit.families.empty()) c.squared_error_drop = 1 - mean_square_error_m2(model, c.fit.tracks) / before_m2;
+    if (!c.fit.families.empty()) c.squared_error_drop = 1 - mean_square_error_m2(model, c.fit.predicted.tracks) / before_m2;
   }
   d.overdispersion = std::max(1.0, best.residual / model.rows());
   d.explainable_fraction = explained / std::max(1e-9, explained + std::max(0.0, leftover));
@@ -172,8 +185,6 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     d.stage = name(stage_of(best));
     d.pattern = pattern_of(best.families.front().effect);
     find_place(model, best, d);
-    say("held-out runs");
-    d.closure = held_out_closure(model, best);
   }
   d.simulated_s = model.simulated_s();
   return d;

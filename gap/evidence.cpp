@@ -38,6 +38,7 @@ Evidence evidence(const std::vector<RunGram>& grams, const std::vector<std::size
   double log_det = 0;
   for (Eigen::Index i = 0; i < m; ++i) log_det += 2 * std::log(llt.matrixLLT()(i, i));
   e.log_density = -0.5 * (integrated + log_det + yy - b.dot(e.mean));
+  e.misfit = yy - b.dot(e.mean);
   e.residual = yy - 2 * b.dot(e.mean) + e.mean.dot(A * e.mean);
   return e;
 }

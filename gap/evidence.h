@@ -19,6 +19,7 @@ struct Evidence {
   Eigen::VectorXd mean;        ///< of the coefficients, posterior
   Eigen::MatrixXd covariance;  ///< posterior
   double residual = 0;         ///< squared sum of what is left at the mean
+  double misfit = 0;           ///< the same with what the mean costs: -2 log of the density but for its normalisation
 };
 
 /// `columns`: indices (>= 1) into the grams' columns, with a prior standard deviation for each; `runs`: which of the

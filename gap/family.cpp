@@ -79,6 +79,7 @@ FreeParameter positive(const char* name, double step, double prior_sd) { return 
 // Logarithms of how many places on the path, and moments of the runs, were tried.
 constexpr double kPlaces = 7;
 constexpr double kMoments = 9;
+constexpr double kPlacesApart = 4;  // places so far apart that none is in reach of another's fit
 
 Family searched(Family family, double cost) {
   family.search_cost = cost;
@@ -92,6 +93,11 @@ Family from_start(Family family, double start) {
 }
 
 }  // namespace
+
+bool shows_in_counts(const EffectInfo& info) {
+  return info.stage == Stage::drivetrain || info.stage == Stage::encoder || info.name == "over_acceleration" ||
+         info.name == "fast_turning";
+}
 
 Effect effect_of(const Family& family, const Eigen::VectorXd& p) {
   return {&find_effect(family.effect), family.values(p)};
@@ -122,17 +128,36 @@ Family both_miss() {
   return family;
 }
 
+// Both wheels off their centres, each by its own two components.
+Family both_eccentric() {
+  const Family left = vector_family("wheel_eccentricity", "left_m", "left_phase_rad", 5e-4, 1e-3, 0.02);
+  const Family right = vector_family("wheel_eccentricity", "right_m", "right_phase_rad", 5e-4, 1e-3, 0.02);
+  Family both = left;
+  both.variant = "both";
+  both.parameters.insert(both.parameters.end(), right.parameters.begin(), right.parameters.end());
+  both.values = [left, right](const Eigen::VectorXd& p) {
+    EffectValues values = left.values(p.head(2));
+    const EffectValues other = right.values(p.tail(2));
+    for (std::size_t i = 0; i < values.numbers.size(); ++i) values.numbers[i] += other.numbers[i];
+    return values;
+  };
+  return both;
+}
+
 // Toed wheels scrub, and how that slows and turns the robot depends on how softly the tyres grip.
 Family on_soft_tyres(Family family) {
   family.variant += ", soft tyres";
   const Eigen::Index own = Eigen::Index(family.parameters.size());
-  family.parameters.push_back({"tyre_creep.along", 0.02, 5e-3, 0.1, 0, 0.5});
-  family.parameters.push_back({"tyre_creep.across", 0.02, 5e-3, 0.1, 0, 0.5});
+  // Shares of slip per traction ratio; their logarithms, for scrub depends on their order of magnitude.
+  constexpr double kAlong = 0.1;
+  constexpr double kAcross = 0.01;
+  family.parameters.push_back({"log tyre_creep.along", 0, 0.2, 1.5, -5, 1.6});
+  family.parameters.push_back({"log tyre_creep.across", 0, 0.2, 1.5, -5, 3.9});
   family.from_zero = false;
   family.parameters.front().start = family.parameters.front().step * 2;
   family.with = [own](const Eigen::VectorXd& p) {
     Effect creep = neutral_effect(find_effect("tyre_creep"));
-    creep.values.numbers = {p[own], p[own + 1]};
+    creep.values.numbers = {kAlong * std::exp(p[own]), kAcross * std::exp(p[own + 1])};
     return std::vector<Effect>{creep};
   };
   return family;
@@ -146,17 +171,20 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution)
       logarithmic("fast_turning", "factor", 1, 1.5, -3, 4),
       logarithmic("encoder_sampling", "interval_s", period_s, 1, 0, 4),
       logarithmic("encoder_resolution", "ticks_per_revolution", ticks_per_revolution, 2, -7, 0),
-      direct("wheel_radius_scale", "both", {signed_one("relative", 1e-3, 0.01)}),
-      direct("wheel_radius_difference", "right over left", {signed_one("relative", 1e-3, 0.004)}),
-      direct("wheelbase", "relative", {signed_one("relative", 1e-3, 0.015)}),
+      direct("wheel_radius_scale", "both", {signed_one("relative", 2e-4, 0.01)}),
+      direct("wheel_radius_difference", "right over left", {signed_one("relative", 2e-4, 0.004)}),
+      direct("wheelbase", "relative", {signed_one("relative", 5e-4, 0.015)}),
       direct("wheel_misalignment", "right", {signed_one("right_toe_rad", 2e-3, 0.008)}),
       direct("wheel_misalignment", "left", {signed_one("left_toe_rad", 2e-3, 0.008)}),
+      direct("wheel_misalignment", "both", {signed_one("left_toe_rad", 2e-3, 0.008), signed_one("right_toe_rad", 2e-3, 0.008)}),
       on_soft_tyres(direct("wheel_misalignment", "right", {signed_one("right_toe_rad", 2e-3, 0.008)})),
       on_soft_tyres(direct("wheel_misalignment", "left", {signed_one("left_toe_rad", 2e-3, 0.008)})),
       vector_family("wheel_eccentricity", "right_m", "right_phase_rad", 5e-4, 1e-3, 0.02),
       vector_family("wheel_eccentricity", "left_m", "left_phase_rad", 5e-4, 1e-3, 0.02),
-      direct("wear", "right", {signed_one("right_relative_per_run", 2e-4, 1e-3)}),
-      direct("wear", "left", {signed_one("left_relative_per_run", 2e-4, 1e-3)}),
+      both_eccentric(),
+      direct("wear", "right", {signed_one("right_relative_per_run", 2e-5, 1e-3)}),
+      direct("wear", "left", {signed_one("left_relative_per_run", 2e-5, 1e-3)}),
+      direct("wear", "both", {signed_one("left_relative_per_run", 2e-5, 1e-3), signed_one("right_relative_per_run", 2e-5, 1e-3)}),
       direct("backlash", "both", {positive("left_rad", 0.01, 0.03), positive("right_rad", 0.01, 0.03)}),
       direct("motor_response", "lag", {positive("lag_s", 0.05, 0.1)}),
       direct("motor_response", "gain", {signed_one("gain_asymmetry", 0.01, 0.05)}),
@@ -201,18 +229,40 @@ Family bump_family(double x_m, double y_m, double heading_rad) {
   return family;
 }
 
+namespace {
+
+// A coordinate of the place, seen from where the search begins.
+FreeParameter coordinate(const char* name) { return {name, 0, 0.005, 0.15, -0.6, 0.6}; }
+
+// The last two numbers are a place.
+Family placed(Family family, double x_m, double y_m) {
+  const Eigen::Index own = Eigen::Index(family.parameters.size()) - 2;
+  const auto values = family.values;
+  family.values = [values, own, x_m, y_m](const Eigen::VectorXd& p) {
+    Eigen::VectorXd at = p;
+    at[own] += x_m;
+    at[own + 1] += y_m;
+    return values(at);
+  };
+  family.from_zero = false;
+  return searched(std::move(family), kPlacesApart);
+}
+
+}  // namespace
+
 Family lift_family(double x_m, double y_m) {
-  return searched(from_start(direct("wheel_lift", "length", {{"length_m", 0, 0.003, 0.05, 0.002, 0.3}},
-                                    {{"x_m", x_m}, {"y_m", y_m}}),
-                             0.03),
-                  kPlaces);
+  return placed(direct("wheel_lift", "length and place",
+                       {{"length_m", 0.06, 0.005, 0.1, 0.002, 0.4}, coordinate("x_m"), coordinate("y_m")}),
+                x_m, y_m);
 }
 
 Family patch_family(double x_m, double y_m) {
-  Family family = direct("slippery_patch", "friction and radius",
-                         {{"friction", 0, 0.005, 0.2, 0.005, 0.8}, {"radius_m", 0.3, 0.02, 0.4, 0.03, 1.5}},
-                         {{"x_m", x_m}, {"y_m", y_m}});
-  return searched(from_start(std::move(family), 0.03), kPlaces);
+  return placed(direct("slippery_patch", "friction, radius and place",
+                       {{"friction", 0.03, 0.002, 0.2, 0.01, 0.8},
+                        {"radius_m", 0.3, 0.02, 0.4, 0.03, 1.5},
+                        coordinate("x_m"),
+                        coordinate("y_m")}),
+                x_m, y_m);
 }
 
 Family push_family(const std::string& run, int leg, double seconds_into_leg) {
@@ -222,12 +272,13 @@ Family push_family(const std::string& run, int leg, double seconds_into_leg) {
   const std::size_t t = index_of(info, "seconds_into_leg");
   const std::size_t i = index_of(info, "impulse_newton_seconds");
   Family family{"push", run,
-                {{"impulse_newton_seconds", 30, 1, 60, -1000, 1000}}, {}, {}, false, kMoments};
+                {{"impulse_newton_seconds", 30, 1, 60, -1000, 1000}, {"later s", 0, 0.02, 0.2, -0.6, 0.6}},
+                {}, {}, false, kMoments};
   family.values = [=](const Eigen::VectorXd& p) {
     EffectValues values = base;
     values.run = run;
     values.numbers[l] = leg;
-    values.numbers[t] = seconds_into_leg;
+    values.numbers[t] = std::max(0.0, seconds_into_leg + p[1]);
     values.numbers[i] = p[0];
     return values;
   };

@@ -25,7 +25,7 @@ Raw raw_columns(const Model& model, std::size_t r) {
   const Recording& recording = model.recording();
   const auto& truth = recording.runs[r].truth;
   const auto& encoders = recording.runs[r].encoders;
-  const auto& path = model.nominal_tracks()[r];
+  const auto& path = model.nominal().tracks[r];
   const auto& stretches = model.stretches(r);
   const TrackFilter& filter = model.filter(r);
   const std::size_t n = filter.samples();
@@ -41,7 +41,7 @@ Raw raw_columns(const Model& model, std::size_t r) {
     while (e + 1 < encoders.size() && encoders[e].time_s < truth[i].time_s) ++e;
     const Stretch& s = stretches[stretch];
     const Pose2 u = inverse(path[i - 1]) * path[i];
-    const double rolled = model.rolled(r)[i];
+    const double rolled = model.nominal().rolled_m[r][i];
     const bool turn = s.kind == Stretch::Kind::turn;
     const double share = turn ? std::abs(u.theta_rad) / std::max(0.1, std::abs(s.angle_rad)) : rolled;
     parts[3 * stretch][i][0] = share;
@@ -69,7 +69,7 @@ Raw raw_columns(const Model& model, std::size_t r) {
 
 double generic_gain(const Model& model, const Fit& fit) {
   const std::size_t runs = model.recording().runs.size();
-  const std::vector<Eigen::VectorXd> residual = model.residuals(fit.tracks, fit.effects());
+  const std::vector<Eigen::VectorXd> residual = model.residuals(fit.predicted);
   std::vector<Eigen::MatrixXd> ripples(runs);
   std::vector<LocalColumns> parts(runs);
   tbb::parallel_for(std::size_t(0), runs, [&](std::size_t r) {

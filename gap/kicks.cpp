@@ -55,7 +55,7 @@ Kicks find_kicks(const Model& model, const Fit& fit) {
       for (std::size_t k = 0; k < recording.runs[r].truth.size(); ++k) {
         // Where the tracker saw the robot; between end points, where the wheels believed to be.
         const bool tracked = recording.truth_kind != "endpoints";
-        const Pose2& X_WB = tracked ? recording.runs[r].truth[k].X_WB : model.nominal_tracks()[r][k];
+        const Pose2& X_WB = tracked ? recording.runs[r].truth[k].X_WB : model.nominal().tracks[r][k];
         wheels[r][std::size_t(w)].push_back(wheel_place(X_WB, w, recording.robot.wheelbase_m));
       }
     }
@@ -66,7 +66,7 @@ Kicks find_kicks(const Model& model, const Fit& fit) {
   std::vector<std::string> seen;
   std::set<std::pair<long, long>> spots;
   for (std::size_t r = 0; r < runs; ++r) {
-    const std::string key = model.conditions()[r] + recording.runs[r].direction;
+    const std::string key = model.nominal().conditions[r] + recording.runs[r].direction;
     if (std::find(seen.begin(), seen.end(), key) != seen.end()) continue;
     seen.push_back(key);
     for (std::size_t k = 1; k < model.filter(r).samples(); k += kStride) {

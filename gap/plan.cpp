@@ -66,7 +66,7 @@ Plan plan(const Model& model, std::size_t given, double radius_scatter, const Pl
   const std::vector<std::size_t> asked = range(0, given);
   const std::vector<std::size_t> menu = range(given, model.recording().runs.size());
   const Signatures signatures(model, planned_families(model, options.effects), asked, options.severity, radius_scatter);
-  const std::vector<Eigen::VectorXd> residual = model.residuals(model.nominal_tracks(), {});
+  const std::vector<Eigen::VectorXd> residual = model.residuals(model.predict({{}}).front());
   const std::vector<RunGram> grams = model.grams(residual, signatures.columns);
   const auto judged = [&](const std::vector<std::size_t>& runs, int draws) {
     const Eigen::MatrixXd A = information(grams, runs, signatures, model.nuisance_sd());

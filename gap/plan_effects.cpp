@@ -54,7 +54,7 @@ OnLeg on_leg(const Model& model, int wanted_leg, double share) {
     const auto& truth = model.recording().runs[0].truth;
     std::size_t k = 0;
     while (k + 1 < truth.size() && truth[k].time_s < s.start_s + at.seconds_into_leg) ++k;
-    at.X_WB = model.nominal_tracks()[0][k];
+    at.X_WB = model.nominal().tracks[0][k];
   }
   return at;
 }

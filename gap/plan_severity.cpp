@@ -59,7 +59,7 @@ Eigen::Vector3d difference(const Pose2& a, const Pose2& b) {
 }
 
 std::vector<std::size_t> moments_of(const Model& model, std::size_t run) {
-  const std::size_t last = model.nominal_tracks()[run].size() - 1;
+  const std::size_t last = model.nominal().tracks[run].size() - 1;
   if (model.recording().truth_kind == "endpoints") return {last};
   std::vector<std::size_t> moments;
   for (std::size_t k = 1; k <= kMoments; ++k) moments.push_back(last * k / kMoments);
@@ -76,7 +76,7 @@ NoiseFloors::NoiseFloors(const Model& model, std::vector<std::size_t> runs, doub
   const NoiseModel& noise = model.noise();
   for (const std::size_t r : runs_) {
     moments_.push_back(moments_of(model, r));
-    const auto& path = model.nominal_tracks()[r];
+    const auto& path = model.nominal().tracks[r];
     // The start is measured, too.
     Spread from_start(noise, model.recording().robot.wheelbase_m, radius_scatter);
     from_start.begin(measured(noise));
@@ -86,8 +86,8 @@ NoiseFloors::NoiseFloors(const Model& model, std::vector<std::size_t> runs, doub
       const double heading_before = k == 0 ? 0 : from_start.variances()[2];
       since_last.begin({0, 0, heading_before});
       for (; k < moment; ++k) {
-        from_start.step(path[k], path[k + 1], model.rolled(r)[k + 1]);
-        since_last.step(path[k], path[k + 1], model.rolled(r)[k + 1]);
+        from_start.step(path[k], path[k + 1], model.nominal().rolled_m[r][k + 1]);
+        since_last.step(path[k], path[k + 1], model.nominal().rolled_m[r][k + 1]);
       }
       whole += from_start.variances() + measured(noise);
       steps += since_last.variances() - Eigen::Vector3d(0, 0, heading_before) + 2 * measured(noise);
@@ -105,7 +105,7 @@ SizeRows NoiseFloors::rows(const std::vector<std::vector<Pose2>>& tracks) const 
   const double share = 1 / std::sqrt(3.0 * double(count));
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
-    const auto& nominal = model_.nominal_tracks()[runs_[i]];
+    const auto& nominal = model_.nominal().tracks[runs_[i]];
     const auto& track = tracks[runs_[i]];
     const Pose2 X_SW = inverse(nominal.front());
     const Pose2 X_SW_track = inverse(track.front());

@@ -41,11 +41,11 @@ class Workshop {
  public:
   Workshop(const Model& model, const std::vector<std::size_t>& counted, double radius_scatter)
       : model_(model), counted_(counted), floors_(model, counted, radius_scatter),
-        nominal_(model.residuals(model.nominal_tracks(), {})) {}
+        nominal_(model.residuals(model.predict({{}}).front())) {}
 
   // An event of one run takes place in every run by turns: which one counts is decided when the set is known.
   Tracks tracks(const PlannedFamily& planned, const Eigen::VectorXd& p, const std::vector<std::size_t>& runs) const {
-    Tracks result = model_.nominal_tracks();
+    Tracks result = model_.nominal().tracks;
     tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
       std::vector<Effect> effects = effects_of(planned.family, p);
       if (planned.in_first_run) effects.front().values.run = model_.recording().runs[runs[i]].id;
@@ -56,7 +56,7 @@ class Workshop {
 
   SizeRows rows(const PlannedFamily& planned, Tracks tracks) const {
     if (planned.in_first_run) {
-      for (std::size_t i = 1; i < counted_.size(); ++i) tracks[counted_[i]] = model_.nominal_tracks()[counted_[i]];
+      for (std::size_t i = 1; i < counted_.size(); ++i) tracks[counted_[i]] = model_.nominal().tracks[counted_[i]];
     }
     return floors_.rows(tracks);
   }
@@ -74,7 +74,9 @@ class Workshop {
   void add(const PlannedFamily& planned, const Eigen::VectorXd& p, double unit, Signature& signature,
            std::vector<Eigen::MatrixXd>& columns) const {
     const Tracks changed = tracks(planned, p, model_.all_runs());
-    const std::vector<Eigen::VectorXd> residual = model_.residuals(changed, effects_of(planned.family, p));
+    Predicted predicted = model_.predict({planned.in_first_run ? std::vector<Effect>{} : effects_of(planned.family, p)}).front();
+    predicted.tracks = changed;
+    const std::vector<Eigen::VectorXd> residual = model_.residuals(predicted);
     const SizeRows r = rows(planned, changed);
     append(signature.rows.whole, r.whole / unit);
     append(signature.rows.steps, r.steps / unit);
@@ -83,7 +85,7 @@ class Workshop {
       Eigen::VectorXd column = (nominal_[run] - residual[run]) / unit;
       const TrackFilter& filter = model_.filter(run);
       const Eigen::Index own = 3 * Eigen::Index(filter.samples());
-      column.head(own) = filter.whiten(first_order(filter, model_.nominal_tracks()[run], changed[run])) / unit;
+      column.head(own) = filter.whiten(first_order(filter, model_.nominal().tracks[run], changed[run])) / unit;
       append(columns[run], column);
       if (std::find(counted_.begin(), counted_.end(), run) == counted_.end()) continue;
       const Eigen::Index more = column.size() - own;

@@ -88,7 +88,7 @@ Ties find_ties(const Model& model, const Diagnosis& d, const std::set<std::strin
   if (first.fit.families.empty()) return ties;
   ties.families = families_of(model, d, excluded);
   const Signatures signatures(model, ties.families, model.all_runs(), 0, kScatter);
-  const auto grams = model.grams(model.residuals(model.nominal_tracks(), {}), signatures.columns);
+  const auto grams = model.grams(model.residuals(model.predict({{}}).front()), signatures.columns);
   const Eigen::MatrixXd A = information(grams, model.all_runs(), signatures, model.nuisance_sd());
   ties.information = A;
   const std::vector<std::string> own = effects_of_name(first.name);
@@ -145,7 +145,7 @@ std::vector<NextExperiment> next_experiments(const Model& menu, const std::vecto
                                              const Thresholds& t) {
   std::vector<NextExperiment> all;
   const Signatures signatures(menu, ties.families, menu.all_runs(), 0, kScatter);
-  const auto grams = menu.grams(menu.residuals(menu.nominal_tracks(), {}), signatures.columns);
+  const auto grams = menu.grams(menu.residuals(menu.predict({{}}).front()), signatures.columns);
   for (std::size_t r = 0; r + 1 < labels.size(); r += 2) {
     // A load says nothing by itself, only beside runs without it. Nuisances of the two are taken as independent.
     const Eigen::MatrixXd A = ties.information + information(grams, {r, r + 1}, signatures, menu.nuisance_sd());

@@ -17,7 +17,8 @@ class Screen {
   struct Candidate {
     Family family;
     Eigen::VectorXd start;
-    std::vector<double> starts;  ///< of the first number, where the simulator bends; empty: only `start`
+    std::vector<Eigen::VectorXd> starts;  ///< where the simulator bends; empty: only `start`
+    Eigen::VectorXd reach;                ///< first steps of a search from the best of them; empty: none
     double gain = 0;  ///< log evidence expected on top of the fit
   };
   /// Families that could explain what `fit` leaves, best first; local ones (places, moments) are searched for anew.
@@ -26,6 +27,9 @@ class Screen {
   const std::vector<Family>& families() const { return families_; }
 
  private:
+  void try_frictions(const Fit& fit, Candidate& c) const;
+  void offer_local(const Fit& fit, std::vector<Candidate>& candidates) const;
+
   const Model& model_;
   std::set<std::string> excluded_;
   std::vector<Family> families_;

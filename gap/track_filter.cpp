@@ -11,8 +11,9 @@ namespace {
 constexpr double kStart_m = 0.02;
 constexpr double kStart_rad = 0.2;
 
-// How a small error moves along when the robot moves by `u`: u^-1 e u to first order.
-Eigen::Matrix3d transition(const Pose2& u) {
+}  // namespace
+
+Eigen::Matrix3d error_transition(const Pose2& u) {
   const double c = std::cos(u.theta_rad);
   const double s = std::sin(u.theta_rad);
   Eigen::Matrix3d T;
@@ -21,8 +22,6 @@ Eigen::Matrix3d transition(const Pose2& u) {
       0, 0, 1;
   return T;
 }
-
-}  // namespace
 
 Eigen::VectorXd track_error(const std::vector<Pose2>& predicted, const std::vector<Pose2>& actual) {
   const std::size_t n = std::min(predicted.size(), actual.size());
@@ -48,7 +47,7 @@ TrackFilter::TrackFilter(const std::vector<Pose2>& path, const std::vector<doubl
     step.transition.setIdentity();
     if (k > 0) {
       const Pose2 u = inverse(path[k - 1]) * path[k];
-      step.transition = transition(u);
+      step.transition = error_transition(u);
       P = (step.transition * P * step.transition.transpose()).eval();
       P.diagonal() += rolled_m[k] * Eigen::Vector3d(noise.along_m2_pm, noise.across_m2_pm, noise.heading_rad2_pm);
     }

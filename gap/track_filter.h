@@ -21,6 +21,9 @@ struct NoiseModel {
 /// Errors of a track against a prediction, (along, across, heading) in the predicted robot's frame: 3 rows a sample.
 using TrackColumns = Eigen::MatrixXd;
 
+/// How a small error of the pose (along, across, heading) moves along when the robot moves by `u`: u^-1 e u to first order.
+Eigen::Matrix3d error_transition(const Pose2& u);
+
 /// Log of the pose error: rows 3k..3k+2 are X_predicted^-1 X_true of sample k.
 Eigen::VectorXd track_error(const std::vector<Pose2>& predicted, const std::vector<Pose2>& actual);
 

@@ -66,12 +66,12 @@ Json tracks_json(const Model& model, const Diagnosis& d) {
     const std::size_t stride = 1 + run.truth.size() / kPoses;
     std::vector<Pose2> recorded;
     for (const TruthSample& t : run.truth) recorded.push_back(t.X_WB);
-    const std::vector<Pose2> before = begun_right(model, r, model.nominal_tracks()[r]);
+    const std::vector<Pose2> before = begun_right(model, r, model.nominal().tracks[r]);
     Json item{{"id", run.id}, {"direction", run.direction}, {"recorded", thinned(recorded, stride)},
               {"before", thinned(before, stride)}, {"parts", parts(d, run.id, stride)},
               {"end", {{"before", end_error(run, before)}}}};
     if (twin) {
-      const std::vector<Pose2> after = begun_right(model, r, cause.fit.tracks[r]);
+      const std::vector<Pose2> after = begun_right(model, r, cause.fit.predicted.tracks[r]);
       item["after"] = thinned(after, stride);
       item["end"]["after"] = end_error(run, after);
     }

@@ -25,7 +25,7 @@ struct Part {
 std::vector<Part> parts_of(const Model& model, std::size_t r) {
   std::vector<Part> parts;
   const auto& truth = model.recording().runs[r].truth;
-  const auto& path = model.nominal_tracks()[r];
+  const auto& path = model.nominal().tracks[r];
   const std::size_t n = model.filter(r).samples();
   for (const Stretch& s : model.stretches(r)) {
     if (s.kind == Stretch::Kind::still) continue;
@@ -33,7 +33,7 @@ std::vector<Part> parts_of(const Model& model, std::size_t r) {
     double way = 0;
     for (std::size_t i = 1; i < n; ++i) {
       if (truth[i].time_s <= s.start_s || truth[i].time_s > s.end_s) continue;
-      const double rolled = model.rolled(r)[i];
+      const double rolled = model.nominal().rolled_m[r][i];
       way += rolled;
       std::string name = "turn";
       if (s.kind == Stretch::Kind::leg) {

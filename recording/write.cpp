@@ -1,5 +1,6 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <set>
@@ -147,8 +148,9 @@ void write_recording(const Recording& recording, const fs::path& directory) {
   std::set<std::string> ids;
   for (const RecordedRun& run : recording.runs) {
     if (!ids.insert(run.id).second) throw RunError(fmt::format("two runs have the id '{}'", run.id));
-    write_run(run, directory);
   }
+  // Turning numbers into text takes as long as driving.
+  tbb::parallel_for(std::size_t(0), recording.runs.size(), [&](std::size_t r) { write_run(recording.runs[r], directory); });
   write(directory / "recording.yaml", recording_text(recording));
 }
 

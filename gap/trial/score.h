@@ -6,6 +6,7 @@
 
 #include "gap/trial/baselines.h"
 #include "gap/trial/figures.h"
+#include "gap/trial/tallies.h"
 #include "gap/trial/leaks.h"
 #include "gap/trial/trial_folder.h"
 

@@ -1,41 +1,6 @@
 #!/bin/sh
-# report_page_test.sh REPORT.html: opens the page in headless Chromium and checks that figures and tables were drawn.
-# Exit code 77 (skipped) without Chromium; the program is $CHROMIUM, or found.
-set -u
-page=${1:?usage: report_page_test.sh REPORT.html}
-[ -r "$page" ] || { echo "FAIL: cannot read $page"; exit 1; }
-case $page in /*) ;; *) page=$PWD/$page ;; esac
-
-for candidate in "${CHROMIUM:-}" chromium chromium-browser google-chrome; do
-  browser=$(command -v "$candidate" 2>/dev/null) && break
-done
-[ -n "$browser" ] || { echo "SKIPPED: no chromium"; exit 77; }
-
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-timeout 120 "$browser" --headless --no-sandbox --disable-gpu --disable-quic --no-first-run \
-  --disable-background-networking --disable-component-update --disable-sync --user-data-dir="$folder/profile" \
-  --dump-dom "file://$page" >"$folder/dom.html" 2>"$folder/browser.log" \
-  || { echo "FAIL: $browser could not open the page"; tail -n 5 "$folder/browser.log"; exit 1; }
-
-# What the reader sees: the document without its scripts and style.
-awk '/<(script|style)/ {hidden = 1} !hidden {print} /<\/(script|style)>/ {hidden = 0}' "$folder/dom.html" \
-  >"$folder/seen.html"
-data=$(grep -F 'id="report-data"' "$page")
-
-failures=0
-fail() { echo "FAIL: $*"; failures=$((failures + 1)); }
-in_data() { printf '%s' "$data" | grep -oF "$1" | wc -l; }
-seen() { grep -oF "$1" "$folder/seen.html" | wc -l; }
-at_least() { [ "$(seen "$1")" -ge "$2" ] || fail "$3: found $(seen "$1") of $2 ($1)"; }
-
-grep -q 'data-drawn="true"' "$folder/seen.html" || fail "the script did not reach its end"
-grep -q '<div id="page-error" role="alert" hidden' "$folder/seen.html" ||
-  fail "error banner: $(grep -F 'id="page-error"' "$folder/seen.html")"
-for word in NaN undefined Infinity '\[object'; do
-  ! grep -q "$word" "$folder/seen.html" ||
-    fail "'$word' on the page: $(grep -o ".\{40\}$word" "$folder/seen.html" | head -n 1)"
-done
+# report_page_test.sh REPORT.html: checks that the page of a run drew figures and tables of what its data holds.
+. "$(dirname "$0")/page.sh"
 at_least '<h1>' 1 "title"
 
 directions=0

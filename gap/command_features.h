@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "recording/recording.h"
+
+namespace umbsim::gap {
+
+/// Counts against commands of one run: what the drivetrain and the encoders make of what was asked.
+struct CommandFeatures {
+  bool known = false;
+  double left_gain = 0;   ///< counted over commanded rotation, minus 1
+  double right_gain = 0;
+  double lag_s = 0;       ///< of the counts behind the commands
+};
+
+/// `counts_rad`: angles (left, right) at the encoder samples of a run with commands.
+CommandFeatures command_features(const RecordedRun& run, const std::vector<std::array<double, 2>>& counts_rad);
+
+/// The recorded counts as angles.
+std::vector<std::array<double, 2>> counted_rad(const RecordedRun& run, const RecordedRobot& robot);
+
+}  // namespace umbsim::gap

@@ -1,0 +1,200 @@
+// Fitting the numbers of effects in the simulator, and what a fit is worth.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <Eigen/LU>
+
+#include "gap/model.h"
+
+namespace umbsim::gap {
+namespace {
+
+Eigen::VectorXd joined(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  Eigen::VectorXd c(a.size() + b.size());
+  c << a, b;
+  return c;
+}
+
+std::vector<int> first_columns(Eigen::Index n) {
+  std::vector<int> columns;
+  for (int i = 1; i <= n; ++i) columns.push_back(i);
+  return columns;
+}
+
+std::vector<FreeParameter> free_parameters(const std::vector<Family>& families) {
+  std::vector<FreeParameter> free;
+  for (const Family& f : families) free.insert(free.end(), f.parameters.begin(), f.parameters.end());
+  return free;
+}
+
+Eigen::VectorXd prior_sd(const std::vector<Family>& families) {
+  const std::vector<FreeParameter> free = free_parameters(families);
+  Eigen::VectorXd sd(Eigen::Index(free.size()));
+  for (Eigen::Index i = 0; i < sd.size(); ++i) sd[i] = free[std::size_t(i)].prior_sd;
+  return sd;
+}
+
+// The derivatives are taken at the fitted numbers: as a shift of the linear model's parameters.
+Eigen::VectorXd shifted(const Eigen::VectorXd& sd, const Eigen::VectorXd& p) {
+  Eigen::VectorXd shift = Eigen::VectorXd::Zero(sd.size());
+  shift.tail(p.size()) = p;
+  return shift;
+}
+
+// log of the standard normal's distribution function, also far below zero.
+double log_normal_cdf(double x) {
+  if (x > -6) return std::log(0.5 * std::erfc(-x / M_SQRT2));
+  return -0.5 * x * x - std::log(-x * std::sqrt(2 * M_PI));
+}
+
+}  // namespace
+
+double Model::log_evidence(const Fit& fit, const std::vector<std::size_t>& runs) const {
+  const Eigen::VectorXd sd = joined(nuisance_sd(), prior_sd(fit.families));
+  const Evidence e = evidence(fit.grams, runs, first_columns(sd.size()), sd, shifted(sd, fit.p));
+  double searched = 0;
+  for (const Family& f : fit.families) searched += f.search_cost;
+  if (!fit.linear) {
+    // The simulator bends: the density where the descent ended, and the width that the derivatives give there.
+    double log_density = evidence(fit.grams, runs, first_columns(nuisances()), nuisance_sd()).log_density;
+    const Eigen::VectorXd s = sd.tail(fit.p.size());
+    const Eigen::MatrixXd width = e.covariance.bottomRightCorner(s.size(), s.size());
+    log_density += 0.5 * std::log(std::max(1e-300, width.determinant())) - s.array().log().sum();
+    return log_density - 0.5 * fit.p.cwiseQuotient(s).squaredNorm() - searched;
+  }
+  double log_density = e.log_density - searched;
+  // A number that cannot be negative has half a normal for its prior.
+  Eigen::Index i = nuisances();
+  for (const FreeParameter& p : free_parameters(fit.families)) {
+    if (p.min >= 0) log_density += log_normal_cdf(e.mean[i] / std::sqrt(e.covariance(i, i))) + std::log(2.0);
+    ++i;
+  }
+  return log_density;
+}
+
+std::vector<Effect> Model::fitted_on(const Fit& fit, const std::vector<std::size_t>& runs) const {
+  const Eigen::VectorXd sd = joined(nuisance_sd(), prior_sd(fit.families));
+  const Evidence e = evidence(fit.grams, runs, first_columns(sd.size()), sd, shifted(sd, fit.p));
+  Fit other = fit;
+  other.p = e.mean.tail(fit.p.size());
+  Eigen::Index i = 0;
+  for (const FreeParameter& p : free_parameters(fit.families)) {
+    // What happened in one run alone no other run can tell: the number stays as it is.
+    const double sd_left = std::sqrt(e.covariance(nuisances() + i, nuisances() + i));
+    if (!(sd_left < 0.8 * p.prior_sd)) other.p[i] = fit.p[i];
+    other.p[i] = std::clamp(other.p[i], p.min, p.max);
+    ++i;
+  }
+  return other.effects();
+}
+
+void Model::score(Fit& fit) const {
+  const std::vector<std::size_t> all = all_runs();
+  fit.log_evidence = log_evidence(fit, all);
+  fit.held_out = 0;
+  std::set<std::string> conditions;
+  const auto condition = [&](std::size_t r) { return nominal_.conditions[r] + recording_.runs[r].direction; };
+  for (std::size_t r : all) conditions.insert(condition(r));
+  for (const std::string& c : conditions) {
+    std::vector<std::size_t> rest;
+    for (std::size_t r : all) {
+      if (condition(r) != c) rest.push_back(r);
+    }
+    if (!rest.empty()) fit.held_out += fit.log_evidence - log_evidence(fit, rest);
+  }
+}
+
+Fit Model::none() const {
+  Fit fit;
+  fit.p.resize(0);
+  fit.covariance.resize(0, 0);
+  fit.predicted = without_effects_;
+  fit.grams = grams(residuals(without_effects_), {});
+  const Evidence e = evidence(fit.grams, all_runs(), first_columns(nuisances()), nuisance_sd());
+  fit.residual = e.residual;
+  fit.misfit = e.misfit;
+  fit.nuisance = e.mean;
+  score(fit);
+  return fit;
+}
+
+double Model::density_at(const std::vector<Family>& families, const Eigen::VectorXd& p) const {
+  Fit fit;
+  fit.families = families;
+  fit.p = p;
+  const Predicted predicted = predict({fit.effects()}).front();
+  return evidence(grams(residuals(predicted), {}), all_runs(), first_columns(nuisances()), nuisance_sd()).log_density;
+}
+
+// The simulator at p and a step from it in every direction.
+void Model::linearise(Fit& fit) const {
+  const std::vector<FreeParameter> free = free_parameters(fit.families);
+  std::vector<std::vector<Effect>> sets{fit.effects()};
+  std::vector<double> steps;
+  for (Eigen::Index i = 0; i < fit.p.size(); ++i) {
+    const FreeParameter& parameter = free[std::size_t(i)];
+    Fit stepped;
+    stepped.families = fit.families;
+    stepped.p = fit.p;
+    steps.push_back(fit.p[i] + parameter.step > parameter.max ? -parameter.step : parameter.step);
+    stepped.p[i] += steps.back();
+    sets.push_back(stepped.effects());
+  }
+  std::vector<Predicted> predicted = predict(sets);
+  fit.predicted = std::move(predicted.front());
+  predicted.erase(predicted.begin());
+  fit.columns = columns(fit.predicted, predicted, steps);
+  fit.grams = grams(residuals(fit.predicted), fit.columns);
+}
+
+// Gauss-Newton on the density, with steps back where the simulator bends.
+Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start, int rounds) const {
+  Fit fit;
+  fit.families = families;
+  const std::vector<FreeParameter> free = free_parameters(families);
+  const Eigen::Index m = Eigen::Index(free.size());
+  fit.p.resize(m);
+  for (Eigen::Index i = 0; i < m; ++i) fit.p[i] = start.size() == m ? start[i] : free[std::size_t(i)].start;
+  const Eigen::VectorXd sd = joined(nuisance_sd(), prior_sd(families));
+  Fit best;
+  double best_density = -1e300;
+  // What does not act in proportion takes longer, most of all with the softness of the tyres.
+  const auto any = [&](const auto& is) { return std::any_of(families.begin(), families.end(), is); };
+  if (any([](const Family& f) { return bool(f.with); })) rounds *= 2;
+  else if (any([](const Family& f) { return !f.from_zero; })) rounds += 1;
+  for (int round = 0; round < rounds; ++round) {
+    linearise(fit);
+    const Evidence e = evidence(fit.grams, all_runs(), first_columns(sd.size()), sd, shifted(sd, fit.p));
+    // Density with the effects held at p: the honest objective of the descent.
+    const Evidence held = evidence(fit.grams, all_runs(), first_columns(nuisances()), nuisance_sd());
+    const double density = held.log_density - 0.5 * fit.p.cwiseQuotient(sd.tail(m)).squaredNorm();
+    fit.covariance = e.covariance.bottomRightCorner(m, m);
+    fit.residual = held.residual;
+    fit.misfit = held.misfit;
+    fit.nuisance = held.mean;
+    if (density <= best_density) {
+      // Where a step leads was not where the derivatives pointed, unless it was too small to matter.
+      best.linear = density > best_density - 0.5;
+      fit.p = (fit.p + best.p) / 2;
+      continue;
+    }
+    const bool small = density < best_density + 0.05;
+    best_density = density;
+    best = fit;
+    if (small) break;
+    Eigen::VectorXd next = e.mean.tail(m);
+    double change = 0;
+    for (Eigen::Index i = 0; i < m; ++i) {
+      next[i] = std::clamp(next[i], free[std::size_t(i)].min, free[std::size_t(i)].max);
+      change = std::max(change, std::abs(next[i] - fit.p[i]) / std::sqrt(fit.covariance(i, i) + 1e-300));
+    }
+    best.linear = change < 1;
+    if (change < 0.1) break;
+    fit.p = next;
+  }
+  score(best);
+  return best;
+}
+
+}  // namespace umbsim::gap

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "gap/nominal_replay.h"
+#include "gap/track_filter.h"
+
+namespace umbsim::gap {
+
+struct NoiseEstimate {
+  NoiseModel noise;
+  bool replicated = false;  ///< from runs that were repeated; else from what the geometry leaves, or a usual value
+};
+
+/// The noise of a recording by maximum likelihood, large innovations capped: from the differences of repeated runs, which
+/// no effect touches; where no two runs can be subtracted, from what radii, wheelbase, tracker's frame and clock leave.
+NoiseEstimate estimate_noise(const NominalReplay& nominal);
+
+}  // namespace umbsim::gap

@@ -1,0 +1,215 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "gap/search.h"
+
+namespace umbsim::gap {
+namespace {
+
+constexpr double kLeastKick = 10; // log evidence below which a place or a moment would not pay
+constexpr double kTryCost = 3;  // log of how many frictions are tried
+
+Eigen::VectorXd start_of(const Family& family) {
+  Eigen::VectorXd p(Eigen::Index(family.parameters.size()));
+  for (Eigen::Index i = 0; i < p.size(); ++i) p[i] = family.parameters[std::size_t(i)].start;
+  return p;
+}
+
+// Effects on how the robot is driven and read are tried where counts or commands show them.
+bool shown_by_habits(const std::string& effect, const Habits& h) {
+  constexpr double kShown = 0.1;
+  if (effect == "encoder_sampling") return h[3] > kShown;
+  if (effect == "encoder_resolution") return h[4] < -kShown;
+  return true;
+}
+
+// Where the fit of such an effect begins: at what counts or commands show. NaN: not such an effect.
+double shown_start(const std::string& effect, const Habits& h) {
+  if (effect == "over_acceleration") return h[0];
+  if (effect == "fast_turning") return h[2];
+  if (effect == "encoder_sampling") return h[3];
+  if (effect == "encoder_resolution") return h[4];
+  return std::nan("");
+}
+
+using Starts = std::vector<Eigen::VectorXd>;
+
+Eigen::VectorXd vector_of(const std::vector<double>& x) {
+  return Eigen::Map<const Eigen::VectorXd>(x.data(), Eigen::Index(x.size()));
+}
+
+// Every combination of the values of each number.
+Starts all_of(const std::vector<std::vector<double>>& values) {
+  std::vector<std::vector<double>> all{{}};
+  for (const std::vector<double>& next : values) {
+    std::vector<std::vector<double>> longer;
+    for (const std::vector<double>& some : all) {
+      for (const double x : next) {
+        longer.push_back(some);
+        longer.back().push_back(x);
+      }
+    }
+    all = std::move(longer);
+  }
+  Starts starts;
+  for (const std::vector<double>& x : all) starts.push_back(vector_of(x));
+  return starts;
+}
+
+// The leg that a moment belongs to, and the seconds since its start; before the first leg: leg 0.
+std::pair<int, double> leg_at(const std::vector<Stretch>& stretches, double time_s) {
+  std::pair<int, double> leg{0, 0};
+  for (const Stretch& s : stretches) {
+    if (s.kind == Stretch::Kind::leg && s.start_s <= time_s) leg = {s.leg, time_s - s.start_s};
+  }
+  return leg;
+}
+
+}  // namespace
+
+Screen::Screen(const Model& model, const std::set<std::string>& excluded) : model_(model), excluded_(excluded) {
+  const Recording& recording = model.recording();
+  for (const Family& f : plain_families(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution)) {
+    if (excluded.count(f.effect) == 0 && shown_by_habits(f.effect, model.habits())) families_.push_back(f);
+  }
+  std::vector<std::vector<Effect>> stepped;
+  std::vector<double> steps;
+  std::vector<double> sd;
+  for (const Family& f : families_) {
+    range_.push_back({int(steps.size()), f.from_zero ? int(f.parameters.size()) : 1});
+    if (!f.from_zero) {
+      stepped.push_back(effects_of(f, start_of(f)));
+      steps.push_back(1);
+      sd.push_back(1);
+      continue;
+    }
+    for (std::size_t i = 0; i < f.parameters.size(); ++i) {
+      Eigen::VectorXd p = start_of(f);
+      p[Eigen::Index(i)] += f.parameters[i].step;
+      stepped.push_back(effects_of(f, p));
+      steps.push_back(f.parameters[i].step);
+      sd.push_back(f.parameters[i].prior_sd);
+    }
+  }
+  columns_ = model.columns(model.none().predicted, model.predict(stepped), steps);
+  prior_sd_ = Eigen::Map<Eigen::VectorXd>(sd.data(), Eigen::Index(sd.size()));
+}
+
+// Wheels let go all at once: no derivative says how much grip is missing, so that it is tried.
+void Screen::try_frictions(const Fit& fit, Candidate& c) const {
+  std::vector<Family> families = fit.families;
+  const double before = model_.density_at(families, fit.p);
+  families.push_back(c.family);
+  Eigen::VectorXd p(fit.p.size() + 1);
+  p << fit.p, 0;
+  c.gain = -1e9;
+  for (const double friction : {0.2, 0.12, 0.08, 0.06, 0.05, 0.042, 0.036, 0.031}) {
+    p[fit.p.size()] = friction;
+    try {
+      const double gain = model_.density_at(families, p) - before - kTryCost;
+      if (gain <= c.gain) continue;
+      c.gain = gain;
+      c.start[0] = friction;
+    } catch (const RunError&) {
+      // So little grip that the robot leaves its course.
+    }
+  }
+}
+
+// Places and moments where something happened that `fit` leaves.
+void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) const {
+  const Kicks kicks = find_kicks(model_, fit);
+  const double R = model_.recording().robot.wheel_radius_m;
+  // Two local events at once are not looked for: the second would mend the first one's shape.
+  if (std::any_of(fit.families.begin(), fit.families.end(), [](const Family& g) { return g.search_cost > 0; })) return;
+  const auto offer = [&](Family family, const Starts& starts, const std::vector<double>& reach, double gain) {
+    if (excluded_.count(family.effect) > 0) return;
+    Candidate c{std::move(family), starts.front(), starts, vector_of(reach), gain};
+    c.gain -= c.family.search_cost;
+    candidates.push_back(std::move(c));
+  };
+  for (std::size_t i = 0; i < std::min<std::size_t>(kicks.places.size(), 2); ++i) {
+    const PlaceKick& k = kicks.places[i];
+    if (k.gain < kLeastKick) break;
+    if (k.lost_m > 0) {
+      // Closed form of a cable that costs a wheel this distance.
+      const double height_m = std::clamp(0.5 * std::pow(3 * std::sqrt(R) * k.lost_m, 2.0 / 3), 0.001, 0.02);
+      offer(bump_family(k.x_m, k.y_m, k.heading_rad), {vector_of({height_m, 0})}, {0.002, 0.02}, k.gain);
+    }
+    offer(lift_family(k.x_m, k.y_m), all_of({{0.03, 0.08, 0.15}, {0}, {0}}), {0.02, 0.04, 0.04}, k.gain - 1);
+    offer(patch_family(k.x_m, k.y_m), all_of({{0.02, 0.035, 0.05}, {0.1, 0.25, 0.45}, {0}, {0}}), {0.006, 0.06, 0.1, 0.1},
+          k.gain - 2);
+  }
+  if (kicks.moments.empty() || kicks.moments.front().gain < kLeastKick) return;
+  const Kick& k = kicks.moments.front();
+  const RecordedRun& run = model_.recording().runs[k.run];
+  const auto [leg, seconds] = leg_at(model_.stretches(k.run), run.truth[k.sample].time_s);
+  if (leg == 0) return;
+  offer(push_family(run.id, leg, std::max(0.0, std::round(seconds * 10 - 1) / 10)),
+        all_of({{-150, -80, -45, -25, -14, 14, 25, 45, 80, 150}, {0}}), {8, 0.1}, k.gain);
+}
+
+std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
+  const auto residual = model_.residuals(fit.predicted);
+  const Eigen::Index own = fit.p.size();
+  std::vector<Eigen::MatrixXd> all(columns_.size());
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    all[r].resize(columns_[r].rows(), own + columns_[r].cols());
+    if (own > 0) all[r].leftCols(own) = fit.columns[r];
+    all[r].rightCols(columns_[r].cols()) = columns_[r];
+  }
+  const std::vector<RunGram> grams = model_.grams(residual, all);
+  const int fixed = model_.nuisances() + int(own);
+  std::vector<int> base;
+  for (int i = 1; i <= fixed; ++i) base.push_back(i);
+  Eigen::VectorXd base_sd(fixed);
+  base_sd.head(model_.nuisances()) = model_.nuisance_sd();
+  Eigen::Index at = model_.nuisances();
+  for (const Family& f : fit.families) {
+    for (const FreeParameter& p : f.parameters) base_sd[at++] = p.prior_sd;
+  }
+  Eigen::VectorXd shift = Eigen::VectorXd::Zero(fixed);
+  shift.tail(own) = fit.p;
+  const auto runs = model_.all_runs();
+  const double before = evidence(grams, runs, base, base_sd, shift).log_density;
+  std::vector<Candidate> candidates;
+  for (std::size_t f = 0; f < families_.size(); ++f) {
+    const auto [first, count] = range_[f];
+    const bool there = std::any_of(fit.families.begin(), fit.families.end(),
+                                   [&](const Family& g) { return g.effect == families_[f].effect; });
+    if (there) continue;
+    std::vector<int> columns = base;
+    Eigen::VectorXd sd(fixed + count);
+    sd << base_sd, prior_sd_.segment(first, count);
+    Eigen::VectorXd moved = Eigen::VectorXd::Zero(fixed + count);
+    moved.head(fixed) = shift;
+    for (int i = 0; i < count; ++i) columns.push_back(fixed + 1 + first + i);
+    const Evidence e = evidence(grams, runs, columns, sd, moved);
+    Candidate c{families_[f], start_of(families_[f]), {}, {}, e.log_density - before};
+    for (int i = 0; i < count; ++i) {
+      const double mean = e.mean[fixed + i];
+      if (!families_[f].from_zero) {
+        if (mean < 0) c.gain = -1e9;  // it would have to act backwards
+        continue;
+      }
+      const FreeParameter& p = families_[f].parameters[std::size_t(i)];
+      c.start[i] = std::clamp(mean, p.min, p.max);
+      if (p.min >= 0 && mean < 0) {
+        const double sigmas = mean / std::sqrt(e.covariance(fixed + i, fixed + i));
+        c.gain -= 0.5 * sigmas * sigmas;
+      }
+    }
+    if (const double shown = shown_start(c.family.effect, model_.habits()); !std::isnan(shown)) {
+      c.start[0] = std::clamp(shown, c.family.parameters[0].min, c.family.parameters[0].max);
+    }
+    if (families_[f].effect == "slippery_floor") try_frictions(fit, c);
+    candidates.push_back(std::move(c));
+  }
+  offer_local(fit, candidates);
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+  return candidates;
+}
+
+}  // namespace umbsim::gap
