@@ -13,5 +13,6 @@ void add_explain_command(CLI::App& app);
 void add_gap_command(CLI::App& app);
 void add_gap_trial_command(CLI::App& gap);  ///< below `gap`
 void add_gap_predict_command(CLI::App& group);  ///< below `gap`
+void add_gap_plan_command(CLI::App& group);     ///< below `gap`
 
 }  // namespace umbsim

@@ -1,4 +1,5 @@
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -8,6 +9,8 @@
 #include <unistd.h>
 
 #include "cli/commands.h"
+#include "cli/gap_menu.h"
+#include "cli/gap_simulator.h"
 #include "core/text_file.h"
 #include "experiment/build_info.h"
 #include "experiment/replay.h"
@@ -16,6 +19,8 @@
 #include "gap/check.h"
 #include "gap/clock.h"
 #include "gap/diagnosis_json.h"
+#include "gap/diagnosis_progress.h"
+#include "gap/plan_ties.h"
 #include "gap/remembered.h"
 #include "gap/tracks_json.h"
 #include "report/report.h"
@@ -31,6 +36,7 @@ struct DiagnoseArguments {
   std::vector<std::string> excluded;
   std::string out;
   bool force = false;
+  bool no_cache = false;
 };
 
 std::string folder_name(const std::string& path) {
@@ -38,21 +44,10 @@ std::string folder_name(const std::string& path) {
   return p.has_filename() ? p.filename().string() : p.parent_path().filename().string();
 }
 
-// Stages of the work, on a terminal only.
-gap::Say stage_printer() {
-  const auto start = std::chrono::steady_clock::now();
-  const bool terminal = isatty(2);
-  return [start, terminal](const std::string& stage) {
-    if (!terminal) return;
-    const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    fmt::print(stderr, "\r\033[K{:5.1f} s  {}", s, stage);
-  };
-}
-
-gap::Simulator simulator(const Replay& replay) {
-  return {[&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.poses(run, effects); },
-          [&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.counts(run, effects); },
-          [&replay](const std::vector<Effect>& effects) { return replay.habits(effects); }};
+// Stages of the work and the time left, on a terminal only.
+void show_stage(double elapsed_s, const std::string& stage, double left_s) {
+  const std::string left = left_s < 0 ? "" : fmt::format(", about {:.0f} s left", std::ceil(left_s));
+  fmt::print(stderr, "\r\033[K{:5.1f} s  {}{}", elapsed_s, stage, left);
 }
 
 // The scenario with the diagnosed effects added; each effect once.
@@ -68,7 +63,7 @@ std::string twin_yaml(Scenario scenario, const gap::Diagnosis& d) {
   return resolved_yaml(scenario);
 }
 
-std::string summary_text(const gap::Diagnosis& d) {
+std::string summary_text(const gap::Diagnosis& d, const std::vector<gap::NextExperiment>& next) {
   std::string text;
   if (!d.detected) {
     text += fmt::format("No gap beyond the noise (floor {:.1f} mm, scenario off by {:.1f} mm).\n", d.noise_floor_mm, d.before_mm);
@@ -89,6 +84,10 @@ std::string summary_text(const gap::Diagnosis& d) {
       text += "\n";
     }
     text += fmt::format("Not told apart: {}\n", fmt::join(d.set, ", "));
+    for (const auto& group : d.indistinguishable) text += fmt::format("Alike in these runs: {}\n", fmt::join(group, ", "));
+    for (const gap::NextExperiment& n : next) {
+      text += fmt::format("Next: {} separates {}\n", n.run, fmt::join(n.separates, ", "));
+    }
     if (!d.left_over.empty()) text += fmt::format("Left over: {}\n", d.left_over);
     if (d.closure.known) {
       text += fmt::format("How far: held-out closure {:.1f} % [{:.1f}, {:.1f}]: {:.1f} mm -> {:.1f} mm, {:.3f} deg -> {:.3f} deg\n",
@@ -98,6 +97,21 @@ std::string summary_text(const gap::Diagnosis& d) {
   }
   for (const std::string& limit : d.limits) text += "Limit: " + limit + "\n";
   return text;
+}
+
+// What to drive next, where something is tied: the menu is driven by the nominal robot.
+std::vector<gap::NextExperiment> next_runs(const Scenario& scenario, const Recording& recording, const gap::Ties& ties,
+                                           const gap::NoiseModel& noise, bool no_cache) {
+  if (ties.members.size() <= ties.own) return {};
+  const std::vector<gap::MenuRun> menu = menu_for(scenario, recording.path);
+  Recording without_runs = recording;
+  without_runs.runs.clear();
+  const Recording driven = with_menu(std::move(without_runs), scenario, menu);
+  const Replay replay(scenario, driven);
+  const gap::Model model(driven, gap::remembered(cached_gap_simulator(replay, no_cache), driven), gap::Scatter{}, noise);
+  std::vector<std::string> labels;
+  for (const gap::MenuRun& m : menu) labels.push_back(m.label);
+  return gap::next_experiments(model, labels, ties, gap::Thresholds{});
 }
 
 // The page is the same bytes on every run: without the cost.
@@ -132,14 +146,23 @@ void run_diagnose(const DiagnoseArguments& a) {
   const Scenario scenario = a.scenario.empty() ? scenario_of(recording, a.recording) : read_scenario(a.scenario);
   prepare_output_folder(out, a.force);
   const Replay replay(scenario, recording);
-  const gap::Say say = stage_printer();
-  const gap::Model model(recording, gap::remembered(simulator(replay), recording), gap::Scatter{});
-  gap::Diagnosis d =
-      gap::diagnose(model, std::set<std::string>(a.excluded.begin(), a.excluded.end()), gap::Thresholds{}, say);
+  const bool terminal = isatty(2) != 0;
+  gap::DiagnosisProgress progress(recording.runs.size(), terminal ? show_stage : [](double, const std::string&, double) {});
+  const gap::Say say = [&](const std::string& stage) { progress.stage(stage); };
+  const gap::Model model(recording, gap::remembered(progress.counted(cached_gap_simulator(replay, a.no_cache)), recording), gap::Scatter{});
+  const std::set<std::string> excluded(a.excluded.begin(), a.excluded.end());
+  gap::Diagnosis d = gap::diagnose(model, excluded, gap::Thresholds{}, say);
   d.limits = limits;
-  if (isatty(2)) fmt::print(stderr, "\r\033[K");
+  say("what could be another effect");
+  const gap::Ties ties = gap::find_ties(model, d, excluded, gap::Thresholds{});
+  gap::add_ties(ties, gap::Thresholds{}, d);
+  const std::vector<gap::NextExperiment> next = next_runs(scenario, recording, ties, d.noise, a.no_cache);
+  if (terminal) fmt::print(stderr, "\r\033[K");
   Json json = gap::diagnosis_json(d);
   json["next_experiment"] = Json::array();
+  for (const gap::NextExperiment& n : next) {
+    json["next_experiment"].push_back({{"run", n.run}, {"separates", n.separates}});
+  }
   json["cost"] = {{"wall_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()},
                   {"simulated_s", d.simulated_s}};
   write_folder(out, a.force, [&](const fs::path& into) {
@@ -149,7 +172,7 @@ void run_diagnose(const DiagnoseArguments& a) {
     write_text_file(into / "provenance.json", provenance_json(a.recording, 0).dump(2) + "\n");
   });
   fmt::print("{}: {}\n{}Result in {}: diagnosis.json, twin.yaml; open {}/report.html\n", folder_name(a.recording),
-             recording.title, summary_text(d), out, out);
+             recording.title, summary_text(d, next), out, out);
 }
 
 }  // namespace
@@ -165,9 +188,11 @@ void add_gap_command(CLI::App& app) {
   command->add_option("--exclude", a->excluded, "Take an effect out of the catalogue (repeatable)")->allow_extra_args(false);
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<recording>-diagnosis");
   command->add_flag("--force", a->force, "Replace a finished result");
+  command->add_flag("--no-cache", a->no_cache, "Keep no simulated tracks in the user's cache folder, and use none");
   command->callback([a] { run_diagnose(*a); });
   add_gap_trial_command(*group);
   add_gap_predict_command(*group);
+  add_gap_plan_command(*group);
 }
 
 }  // namespace umbsim

@@ -111,6 +111,9 @@ Scenario read_scenario(const YamlValue& document);
 /// Every value written out, in the form that read_scenario takes.
 std::string resolved_yaml(const Scenario& scenario);
 
+/// The URDF that the scenario names, found beside the scenario or in the shipped robots/.
+std::string scenario_urdf(const Scenario& scenario);
+
 /// The robot that the scenario names, found beside the scenario or in the shipped robots/.
 RobotModel load_scenario_robot(const Scenario& scenario);
 

@@ -13,7 +13,9 @@ std::string robots_directory() {
   return chosen ? chosen : UMBSIM_ROBOTS_DIR;
 }
 
-std::string find_urdf(const Scenario& s) {
+}  // namespace
+
+std::string scenario_urdf(const Scenario& s) {
   const fs::path given = s.robot.urdf;
   if (given.is_absolute()) return given;
   const fs::path beside = fs::path(s.file).parent_path() / given;
@@ -21,10 +23,8 @@ std::string find_urdf(const Scenario& s) {
   return fs::path(robots_directory()) / given;
 }
 
-}  // namespace
-
 RobotModel load_scenario_robot(const Scenario& scenario) {
-  RobotModel robot = load_robot(find_urdf(scenario), scenario.robot.joints);
+  RobotModel robot = load_robot(scenario_urdf(scenario), scenario.robot.joints);
   for (Caster& caster : robot.casters) caster.friction = scenario.robot.caster_friction;
   return robot;
 }

@@ -39,7 +39,8 @@ std::string Fit::name() const {
   return fmt::format("{}", fmt::join(names, "+"));
 }
 
-Model::Model(const Recording& recording, Simulator simulator, const Scatter& scatter)
+Model::Model(const Recording& recording, Simulator simulator, const Scatter& scatter,
+             const std::optional<NoiseModel>& known)
     : recording_(recording), simulator_(std::move(simulator)), scatter_(scatter) {
   for (const RecordedRun& run : recording.runs) {
     stretches_.push_back(umbsim::stretches(run, recording.robot));
@@ -49,7 +50,7 @@ Model::Model(const Recording& recording, Simulator simulator, const Scatter& sca
   measured_.habits = measured_habits(recording, stretches_);
   without_effects_ = predict({{}}).front();
   nominal_ = beside(recording, without_effects_.tracks);
-  const NoiseEstimate estimate = estimate_noise(nominal_);
+  const NoiseEstimate estimate = known ? NoiseEstimate{*known, false} : estimate_noise(nominal_);
   noise_ = estimate.noise;
   replicated_ = estimate.replicated;
   noise_floor_m_ = gap::noise_floor_m(nominal_, noise_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,9 @@ struct Fit {
 /// A recording seen through the simulator: residuals, nuisances, noise, and the evidence for any combination of effects.
 class Model {
  public:
-  Model(const Recording& recording, Simulator simulator, const Scatter& scatter);
+  /// `known`: the noise, where it is not to be estimated from the runs.
+  Model(const Recording& recording, Simulator simulator, const Scatter& scatter,
+        const std::optional<NoiseModel>& known = std::nullopt);
 
   const Recording& recording() const { return recording_; }
   const NominalReplay& nominal() const { return nominal_; }

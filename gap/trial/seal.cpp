@@ -1,9 +1,5 @@
 #include "gap/trial/seal.h"
 
-#include <openssl/evp.h>
-
-#include <array>
-
 #include <fmt/format.h>
 
 #include "core/error.h"
@@ -18,17 +14,6 @@ constexpr std::size_t kMaxAnswerBytes = 256 * 1024 * 1024;
 constexpr std::size_t kHashDigits = 64;
 
 }  // namespace
-
-std::string sha256(const std::string& text) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int length = 0;
-  if (EVP_Digest(text.data(), text.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1) {
-    throw RunError("OpenSSL cannot compute a SHA-256");
-  }
-  std::string hex;
-  for (unsigned int i = 0; i < length; ++i) hex += fmt::format("{:02x}", digest[i]);
-  return hex;
-}
 
 std::optional<std::string> read_seal(const TrialFolder& folder) {
   if (!fs::exists(folder.seal())) return std::nullopt;

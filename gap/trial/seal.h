@@ -3,12 +3,10 @@
 #include <optional>
 #include <string>
 
+#include "core/sha256.h"
 #include "gap/trial/trial_folder.h"
 
 namespace umbsim {
-
-/// SHA-256 of a text as 64 hexadecimal digits (OpenSSL).
-std::string sha256(const std::string& text);
 
 /// The hash that seals the answers of a trial, from answers.sha256 (the format of sha256sum); nothing if there is none.
 std::optional<std::string> read_seal(const TrialFolder& folder);

@@ -1,0 +1,157 @@
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/commands.h"
+#include "cli/gap_menu.h"
+#include "cli/gap_simulator.h"
+#include "core/text_file.h"
+#include "experiment/result_json.h"
+#include "experiment/run_folder.h"
+#include "gap/check.h"
+#include "gap/plan_json.h"
+#include "gap/remembered.h"
+
+namespace umbsim {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PlanArguments {
+  std::string subject;
+  std::vector<std::string> effects;
+  std::vector<std::string> excluded;
+  std::string out;
+  gap::PlanOptions options;
+  bool force = false;
+  bool no_cache = false;
+};
+
+/// The runs that are asked about, as the nominal robot drives them, and what is known of the noise.
+struct Subject {
+  std::string name;
+  Scenario scenario;
+  Recording recording;
+  gap::NoiseModel noise;
+  gap::Scatter scatter;
+  std::vector<std::string> limits;
+};
+
+// Noise as a scenario describes it; counting is part of it (gap/model.cpp).
+gap::NoiseModel noise_of(const Scenario& s, const RecordedRobot& robot, std::vector<std::string>& limits) {
+  gap::NoiseModel noise;
+  const double k = s.noise.wheel_noise_m_per_sqrt_m;
+  if (k > 0) {
+    // Both wheels' paths vary by k^2 per metre: the heading by 2 k^2 / b^2, the way by k^2 / 2.
+    noise.heading_rad2_pm = 2 * k * k / (robot.wheelbase_m * robot.wheelbase_m);
+    noise.along_m2_pm = k * k / 2;
+  } else {
+    limits.push_back("the scenario has no noise of the wheels: a usual value is taken");
+  }
+  if (s.noise.floor_rms_m > 0) limits.push_back("the uneven floor of `noise` is not part of the noise floor");
+  constexpr double kGoodTracker = 1e-4;  // m, rad: as where a recording does not say
+  const double rounding_m = 2 * M_PI * robot.wheel_radius_m / robot.ticks_per_revolution / std::sqrt(12.0);
+  const auto or_good = [](double sd) { return sd > 0 ? sd : kGoodTracker; };
+  noise.position_sd_m = std::hypot(or_good(s.truth.position_sd_m), rounding_m / M_SQRT2);
+  noise.heading_sd_rad = std::hypot(or_good(s.truth.heading_sd_rad), rounding_m * M_SQRT2 / robot.wheelbase_m);
+  return noise;
+}
+
+Subject of_scenario(const std::string& file) {
+  Subject s;
+  s.scenario = read_scenario(file);
+  s.name = s.scenario.name;
+  s.recording = gap::with_moments_between(run_experiment(nominal_scenario(s.scenario), 0, false).recording);
+  s.recording.title = s.scenario.description.empty() ? s.name : s.scenario.description;
+  s.recording.truth_position_sd_m = s.scenario.truth.position_sd_m;
+  s.recording.truth_heading_sd_rad = s.scenario.truth.heading_sd_rad;
+  s.noise = noise_of(s.scenario, s.recording.robot, s.limits);
+  if (s.scenario.noise.radius_scatter > 0) s.scatter.radius = s.scenario.noise.radius_scatter;
+  return s;
+}
+
+// The recorded poses give the noise and the start, and are then replaced by what the nominal robot would do.
+Subject of_recording(const std::string& folder, bool no_cache) {
+  Subject s;
+  const Recording given = read_recording(folder);
+  s.limits = gap::check_recording(given, folder);
+  s.name = fs::absolute(folder / fs::path(".")).lexically_normal().parent_path().filename().string();
+  s.recording = gap::with_moments_between(given);
+  s.scenario = scenario_of(s.recording, folder);
+  const Replay replay(s.scenario, s.recording);
+  const gap::Model model(s.recording, gap::remembered(cached_gap_simulator(replay, no_cache), s.recording), s.scatter);
+  s.noise = model.noise();
+  Recording nominal = s.recording;
+  for (std::size_t r = 0; r < nominal.runs.size(); ++r) {
+    for (std::size_t k = 0; k < nominal.runs[r].truth.size(); ++k) {
+      nominal.runs[r].truth[k].X_WB = model.nominal().tracks[r][k];
+    }
+  }
+  s.recording = std::move(nominal);
+  return s;
+}
+
+std::vector<double> durations_s(const Recording& recording) {
+  std::vector<double> result;
+  for (const RecordedRun& run : recording.runs) result.push_back(run.encoders.back().time_s);
+  return result;
+}
+
+gap::PlanOptions options_of(const PlanArguments& a) {
+  gap::PlanOptions options = a.options;
+  for (const std::string& e : a.effects) options.effects.insert(find_effect(e).name);
+  if (a.effects.empty()) {
+    for (const EffectInfo& info : catalogue()) options.effects.insert(info.name);
+  }
+  for (const std::string& e : a.excluded) options.effects.erase(find_effect(e).name);
+  if (options.effects.size() < 2) throw InputError("gap plan: at least two effects are needed, to be told apart");
+  return options;
+}
+
+void plan(const PlanArguments& a) {
+  const gap::PlanOptions options = options_of(a);
+  Subject s = fs::is_directory(a.subject) ? of_recording(a.subject, a.no_cache) : of_scenario(a.subject);
+  const std::string out = a.out.empty() ? "results/" + s.name + "-plan" : a.out;
+  prepare_output_folder(out, a.force);
+  gap::PlanContext context{s.recording.title, {}, {}, s.recording.runs.size(), s.limits};
+  for (const RecordedRun& run : s.recording.runs) context.labels.push_back(run.id);
+  const std::vector<gap::MenuRun> menu = menu_for(s.scenario, s.recording.path);
+  for (const gap::MenuRun& m : menu) context.labels.push_back(m.label);
+  const Recording all = with_menu(s.recording, s.scenario, menu);
+  context.durations_s = durations_s(all);
+  const Replay replay(s.scenario, all);
+  const gap::Model model(all, gap::remembered(cached_gap_simulator(replay, a.no_cache), all), s.scatter, s.noise);
+  const gap::Plan result = gap::plan(model, context.given, s.scatter.radius, options);
+  write_folder(out, a.force, [&](const fs::path& into) {
+    write_text_file(into / "plan.json", gap::plan_json(result, context, options, s.noise).dump(1) + "\n");
+    write_text_file(into / "provenance.json", provenance_json(a.subject, options.seed).dump(2) + "\n");
+  });
+  fmt::print("{}Result in {}: plan.json\n", gap::plan_text(result, context, options), out);
+}
+
+}  // namespace
+
+void add_gap_plan_command(CLI::App& group) {
+  const auto a = std::make_shared<PlanArguments>();
+  CLI::App* command = group.add_subcommand(
+      "plan", "Before any data: which effects a set of runs can tell apart, and the shortest set that does");
+  command->add_option("subject", a->subject, "Scenario (its own runs) or folder of a recording (the same runs)")->required();
+  command->add_option("--effects", a->effects, "Effects to be told apart, by commas; default: the catalogue")->delimiter(',');
+  command->add_option("--exclude", a->excluded, "Leave an effect out (repeatable)")->allow_extra_args(false);
+  command->add_option("--severity", a->options.severity, "Size of each effect in noise floors of these runs")
+      ->check(CLI::Range(0.1, 1000.0))->capture_default_str();
+  command->add_option("--alike", a->options.alike, "Probability of a mistake above which two effects are not told apart")
+      ->check(CLI::Range(0.001, 0.5))->capture_default_str();
+  command->add_option("--draws", a->options.draws, "Sampled cases of each effect")
+      ->check(CLI::Range(10, 100000))->capture_default_str();
+  command->add_option("--seed", a->options.seed, "Of the sampled cases")->capture_default_str();
+  command->add_option("-o,--out", a->out, "Folder for the result; default results/<name>-plan");
+  command->add_flag("--force", a->force, "Replace a finished result");
+  command->add_flag("--no-cache", a->no_cache, "Keep no simulated tracks in the user's cache folder, and use none");
+  command->callback([a] { plan(*a); });
+}
+
+}  // namespace umbsim

@@ -1,0 +1,43 @@
+#include "cli/gap_simulator.h"
+
+#include "core/error.h"
+#include "core/sha256.h"
+#include "core/text_file.h"
+#include "experiment/build_info.h"
+
+namespace umbsim {
+namespace {
+
+constexpr std::size_t kMaxFileBytes = std::size_t(1) << 30;
+
+// What tracks depend on beside the recording: the program's own bytes (a commit does not tell two builds of a changed tree
+// apart), the scenario, the robot.
+std::string identity(const Scenario& scenario) {
+  const BuildInfo build = build_info();
+  std::string text = build.version + build.commit + build.compiler + build.bullet + build.build_type;
+  text += sha256(read_text_file("/proc/self/exe", kMaxFileBytes)) + resolved_yaml(scenario);
+  return text + sha256(read_text_file(scenario_urdf(scenario), kMaxFileBytes));
+}
+
+}  // namespace
+
+gap::Simulator gap_simulator(const Replay& replay) {
+  return {[&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.poses(run, effects); },
+          [&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.counts(run, effects); },
+          [&replay](const std::vector<Effect>& effects) { return replay.habits(effects); }};
+}
+
+gap::Simulator cached_gap_simulator(const Replay& replay, bool no_cache) {
+  gap::CacheChoice choice;
+  choice.max_memory_bytes = 0;  // gap/remembered.h keeps what is asked for again
+  std::string known;
+  try {
+    if (!no_cache) choice.folder = gap::user_cache_folder();
+    if (choice.folder) known = identity(replay.scenario());
+  } catch (const InputError&) {
+    choice.folder.reset();  // what cannot be told apart is not kept
+  }
+  return gap::cached(gap_simulator(replay), replay.recording(), known, choice);
+}
+
+}  // namespace umbsim
