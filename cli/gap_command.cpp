@@ -63,6 +63,16 @@ std::string twin_yaml(Scenario scenario, const gap::Diagnosis& d) {
   return resolved_yaml(scenario);
 }
 
+constexpr std::size_t kLongestUrdf = 16 << 20;  // bytes
+
+// A robot that lay beside the recording lies beside the twin, too.
+void keep_urdf(const Scenario& scenario, const fs::path& into) {
+  const fs::path given = scenario.robot.urdf;
+  const fs::path beside = fs::path(scenario.file).parent_path() / given;
+  if (given.is_absolute() || !fs::exists(beside)) return;
+  write_text_file(into / given.filename(), read_text_file(beside, kLongestUrdf));
+}
+
 std::string summary_text(const gap::Diagnosis& d, const std::vector<gap::NextExperiment>& next) {
   std::string text;
   if (!d.detected) {
@@ -169,6 +179,7 @@ void run_diagnose(const DiagnoseArguments& a) {
     write_text_file(into / "diagnosis.json", json.dump(2) + "\n");
     write_text_file(into / "report.html", page(model, d, json));
     write_text_file(into / "twin.yaml", twin_yaml(scenario, d));
+    keep_urdf(scenario, into);
     write_text_file(into / "provenance.json", provenance_json(a.recording, 0).dump(2) + "\n");
   });
   fmt::print("{}: {}\n{}Result in {}: diagnosis.json, twin.yaml; open {}/report.html\n", folder_name(a.recording),

@@ -15,7 +15,7 @@ struct Thresholds {
   double detect = 8;        ///< log evidence that a gap needs
   double effect_cost = 3;   ///< prior log odds against each further effect
   double addition = 10;     ///< log evidence that a further effect needs,
-  double addition_share = 0.02;  ///< and the same as a share of what the others gained,
+  double addition_share = 0.012;  ///< and the same as a share of what the others gained,
   double misfit_share = 0.2;     ///< and of the excess of the residual that the others leave
   double smallest = 0.25;   ///< displacement, in noise floors, below which an effect is no gap but a difference of engines
   double noise_error = 0.1; ///< a misfit larger by this share is no news: three sd of estimates from two pairs of repeats
