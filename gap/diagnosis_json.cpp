@@ -13,10 +13,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr int kDraws = 2000;
+// What a replay is off by that no residual shows, standard deviations, from the development trial (docs/gap.md).
+constexpr double kReplayShare = 0.02;  // of a size, against its neutral value
+constexpr double kReplayAngle_rad = 0.01;
+constexpr double kReplayPlace_m = 0.005;
+constexpr double kReplayMoment_s = 0.01;
 
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
 bool is_angle(const EffectParameter& p) { return p.unit == "rad" && p.bounds.min <= -3 && p.bounds.max >= 3; }
+
+double replay_sd(const EffectParameter& p, double value, double neutral) {
+  if (is_angle(p)) return kReplayAngle_rad;
+  if (p.name == "x_m" || p.name == "y_m") return kReplayPlace_m;
+  if (p.name == "leg") return 0;
+  if (p.name == "seconds_into_leg") return kReplayMoment_s;
+  return kReplayShare * std::abs(value - neutral);
+}
 
 }  // namespace
 
@@ -50,8 +63,11 @@ std::vector<ParameterEstimate> parameter_estimates(const Fit& fit, double overdi
       std::sort(values.begin(), values.end());
       const bool fixed = values.front() == values.back();
       if (fixed && best.numbers[k] == neutral.numbers[k]) continue;
-      estimates.push_back({f.effect, info.parameters[k].name, info.parameters[k].unit, best.numbers[k],
-                           {values[kDraws / 40], values[kDraws - 1 - kDraws / 40]}});
+      const double best_k = best.numbers[k];
+      const double replay = 1.96 * replay_sd(info.parameters[k], best_k, neutral.numbers[k]);
+      estimates.push_back({f.effect, info.parameters[k].name, info.parameters[k].unit, best_k,
+                           {best_k - std::hypot(best_k - values[kDraws / 40], replay),
+                            best_k + std::hypot(values[kDraws - 1 - kDraws / 40] - best_k, replay)}});
     }
     at += n;
   }

@@ -1,5 +1,6 @@
 #include "gap/family.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace umbsim::gap {
@@ -205,6 +206,10 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution)
       vector_family("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5),
       vector_family("carpet_drift", "metres_per_metre", "direction_rad", 1e-3, 0.008, 0.5),
   };
+  for (Family& f : all) {
+    const auto same = [&](const Family& g) { return g.effect == f.effect; };
+    f.variant_cost = std::log(double(std::count_if(all.begin(), all.end(), same)));
+  }
   return all;
 }
 

@@ -31,6 +31,7 @@ struct Family {
   std::function<std::vector<Effect>(const Eigen::VectorXd& p)> with;
   bool from_zero = true;  ///< acts in proportion near zero; false: fitted from its start, by repeated simulation
   double search_cost = 0; ///< log of the number of places or moments that were looked at
+  double variant_cost = 0; ///< log of the number of families of the same effect, which are all tried
 };
 
 /// The effect with everything that goes with it.

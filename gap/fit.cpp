@@ -54,7 +54,7 @@ double Model::log_evidence(const Fit& fit, const std::vector<std::size_t>& runs)
   const Eigen::VectorXd sd = joined(nuisance_sd(), prior_sd(fit.families));
   const Evidence e = evidence(fit.grams, runs, first_columns(sd.size()), sd, shifted(sd, fit.p));
   double searched = 0;
-  for (const Family& f : fit.families) searched += f.search_cost;
+  for (const Family& f : fit.families) searched += f.search_cost + f.variant_cost;
   if (!fit.linear) {
     // The simulator bends: the density where the descent ended, and the width that the derivatives give there.
     double log_density = evidence(fit.grams, runs, first_columns(nuisances()), nuisance_sd()).log_density;

@@ -113,7 +113,8 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   Nuisances n;
   n.shared_sd = shared_sd(groups, scatter, is_free);
   n.own_sd.resize(kOwn);
-  n.own_sd << scatter.radius, scatter.radius, is_free ? scatter.run_clock_s : 0, is_free ? scatter.clock_rate : 0;
+  const double radius = is_free ? scatter.real_radius : scatter.radius;
+  n.own_sd << radius, radius, is_free ? scatter.run_clock_s : 0, is_free ? scatter.clock_rate : 0;
   // No two engines, and no real tyre, grip sideways alike: the creep of the tyres is a nuisance up to its usual size.
   Effect creep = neutral_effect(find_effect("tyre_creep"));
   creep.values.numbers = {0, kCreep};
