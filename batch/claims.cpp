@@ -24,7 +24,8 @@ struct flock byte_lock(short type, std::int64_t number) {
 
 }  // namespace
 
-Claims::Claims(const std::filesystem::path& file) : descriptor_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+Claims::Claims(const std::filesystem::path& file)
+    : descriptor_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
   if (descriptor_ < 0) throw RunError(fmt::format("{}: cannot be made: {}", file.string(), std::strerror(errno)));
 }
 

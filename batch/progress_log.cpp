@@ -48,7 +48,8 @@ std::string ProgressLog::line() const {
   std::string text = fmt::format("{}: {}/{} points", what_, done_, total_);
   if (ours_ == 0) return text;
   const double per_second = double(ours_) / elapsed.count();
-  text += per_second >= 1 ? fmt::format(", {:.1f} per s", per_second) : fmt::format(", {:.1f} per min", 60 * per_second);
+  text +=
+      per_second >= 1 ? fmt::format(", {:.1f} per s", per_second) : fmt::format(", {:.1f} per min", 60 * per_second);
   return text + fmt::format(", {} left", duration_text(double(total_ - done_) / per_second));
 }
 

@@ -46,7 +46,8 @@ void Database::fail(const std::string& doing) const {
 // is tried again until the same time is up.
 void Database::run(const std::string& sql) {
   int code = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);
-  for (int waited_ms = 0; (code & 0xff) == SQLITE_BUSY && sqlite3_get_autocommit(handle_.get()) && waited_ms < kBusyTimeout_ms;
+  for (int waited_ms = 0;
+       (code & 0xff) == SQLITE_BUSY && sqlite3_get_autocommit(handle_.get()) && waited_ms < kBusyTimeout_ms;
        waited_ms += kRetry_ms) {
     sqlite3_sleep(kRetry_ms);
     code = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);

@@ -2,8 +2,8 @@
 
 namespace umbsim {
 
-/// While it lives, the first SIGINT (Ctrl-C) or SIGTERM asks for an orderly end instead of ending the program; the second
-/// ends it at once. One at a time.
+/// While it lives, the first SIGINT (Ctrl-C) or SIGTERM asks for an orderly end instead of ending the program; the
+/// second ends it at once. One at a time.
 class StopRequests {
  public:
   StopRequests();

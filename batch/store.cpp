@@ -28,7 +28,8 @@ void check_is_store(Database& database) {
   }
   const double version = number_of(database.value("PRAGMA user_version"));
   if (version != double(kStoreVersion)) {
-    throw InputError(fmt::format("{}: has version {} of the tables (must be {})", database.file(), version, kStoreVersion));
+    throw InputError(
+        fmt::format("{}: has version {} of the tables (must be {})", database.file(), version, kStoreVersion));
   }
 }
 

@@ -80,8 +80,8 @@ class Store {
   /// When all is done: one file without a journal beside it.
   void settle();
 
-  /// Rows of the view `results`, in the order of the points: these columns, where all conditions hold. Throws InputError
-  /// that begins with `what` for a column that is not there.
+  /// Rows of the view `results`, in the order of the points: these columns, where all conditions hold. Throws
+  /// InputError that begins with `what` for a column that is not there.
   Statement select(const std::vector<std::string>& columns, const std::vector<Condition>& conditions,
                    const std::string& what);
   /// Names of the columns of `results` that come before axes and figures.

@@ -119,8 +119,9 @@ std::vector<std::string> filled_columns(Store& store, const std::vector<Conditio
 
 void write_header(Sink& sink, const Store& store, const std::vector<std::string>& columns, bool json) {
   if (json) {
-    append(sink.text, fmt::format("{{\"format\": \"umbsim-sweep-export/1\", \"sweep\": {},\n \"columns\": {},\n \"rows\": [",
-                                  nlohmann::json(store.layout().name).dump(), nlohmann::json(columns).dump()));
+    append(sink.text,
+           fmt::format("{{\"format\": \"umbsim-sweep-export/1\", \"sweep\": {},\n \"columns\": {},\n \"rows\": [",
+                       nlohmann::json(store.layout().name).dump(), nlohmann::json(columns).dump()));
     return;
   }
   for (std::size_t i = 0; i < columns.size(); ++i) {

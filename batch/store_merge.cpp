@@ -34,7 +34,8 @@ std::string translated_provenance(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (name != "provenance") same += fmt::format(" AND m.{0} = o.{0}", quoted_name(name));
   }
-  return "(SELECT m.provenance FROM main.provenance m, other.provenance o WHERE o.provenance = p.provenance" + same + ")";
+  return "(SELECT m.provenance FROM main.provenance m, other.provenance o WHERE o.provenance = p.provenance" + same +
+         ")";
 }
 
 }  // namespace
@@ -54,14 +55,16 @@ void Store::take_over(const std::filesystem::path& file) {
   sources.erase(sources.begin());
   std::vector<std::string> before(fixed_columns().begin(), fixed_columns().end() - 1);
   Transaction transaction(*database_);
-  database_->run(fmt::format("INSERT OR IGNORE INTO main.provenance ({0}) SELECT {0} FROM other.provenance ORDER BY provenance",
-                             column_list(sources)));
+  database_->run(
+      fmt::format("INSERT OR IGNORE INTO main.provenance ({0}) SELECT {0} FROM other.provenance ORDER BY provenance",
+                  column_list(sources)));
   // Figures and runs of the points that are new here: before the points, by which they are told.
-  database_->run("INSERT INTO main.figures SELECT * FROM other.figures WHERE point NOT IN (SELECT point FROM main.points)");
+  database_->run(
+      "INSERT INTO main.figures SELECT * FROM other.figures WHERE point NOT IN (SELECT point FROM main.points)");
   database_->run("INSERT INTO main.runs SELECT * FROM other.runs WHERE point NOT IN (SELECT point FROM main.points)");
   const std::string axes = layout_.axes.empty() ? "" : ", " + column_list(layout_.axes, "p.");
-  database_->run(fmt::format("INSERT OR IGNORE INTO main.points SELECT {}, {}{} FROM other.points p", column_list(before, "p."),
-                             provenance, axes));
+  database_->run(fmt::format("INSERT OR IGNORE INTO main.points SELECT {}, {}{} FROM other.points p",
+                             column_list(before, "p."), provenance, axes));
   database_->run("INSERT OR IGNORE INTO main.starts SELECT * FROM other.starts");
   transaction.commit();
 }

@@ -1,5 +1,5 @@
-// The grid of docs/fidelity.md, chapter 5: every robot, cable and friction with which the wheel can climb, supports that
-// sink by a hundredth of the cable, steps of 1 ms. What it costs, and how far the heading is off the closed form.
+// The grid of docs/fidelity.md, chapter 5: every robot, cable and friction with which the wheel can climb, supports
+// that sink by a hundredth of the cable, steps of 1 ms. What it costs, and how far the heading is off the closed form.
 #include <time.h>
 
 #include <algorithm>

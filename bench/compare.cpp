@@ -86,8 +86,8 @@ std::vector<Row> measure(const RobotModel& robot) {
 }
 
 void print(const std::vector<Row>& rows) {
-  fmt::print("{:<22}{:<8}{:>9}{:>14}{:>14}{:>12}{:>14}\n", "engine", "task", "step ms", "error", "heading deg", "us/step",
-             "sim s per s");
+  fmt::print("{:<22}{:<8}{:>9}{:>14}{:>14}{:>12}{:>14}\n", "engine", "task", "step ms", "error", "heading deg",
+             "us/step", "sim s per s");
   for (const Row& r : rows) {
     const bool square = r.contender->task == "square";
     const std::string error =
@@ -98,7 +98,8 @@ void print(const std::vector<Row>& rows) {
 }
 
 // The fastest of an engine's squares that `accept`s; nullptr if none does.
-const Row* fastest(const std::vector<Row>& rows, const std::string& engine, const std::function<bool(const Row&)>& accept) {
+const Row* fastest(const std::vector<Row>& rows, const std::string& engine,
+                   const std::function<bool(const Row&)>& accept) {
   const Row* best = nullptr;
   for (const Row& r : rows) {
     if (r.contender->name != engine || r.contender->task != "square" || !accept(r)) continue;
@@ -125,7 +126,8 @@ Json figures(const std::vector<Row>& rows) {
   Json json;
   if (!ours) return json;
   const auto add = [&](const char* key, const Row* peer) {
-    json[key] = peer ? Json{{"ratio", ours->outcome.speed() / peer->outcome.speed()}, {"peer", row_json(*peer)}} : Json();
+    json[key] =
+        peer ? Json{{"ratio", ours->outcome.speed() / peer->outcome.speed()}, {"peer", row_json(*peer)}} : Json();
   };
   json["ours"] = row_json(*ours);
   const Row *cylinders = fastest(rows, kStock, at_1_ms), *round = fastest(rows, kRound, at_1_ms);

@@ -1,8 +1,8 @@
-// Instructions per simulated second, counted by valgrind's callgrind: repeatable where a clock is not. Only the drive is
-// counted, not start-up, construction and files.
+// Instructions per simulated second, counted by valgrind's callgrind: repeatable where a clock is not. Only the drive
+// is counted, not start-up, construction and files.
 //   umbsim_instructions record FILE   counts and writes FILE
-//   umbsim_instructions check FILE    counts and compares with FILE; 1 if a case costs over 5 % more, 77 if it cannot tell
-//   umbsim_instructions drive CASE    what is counted: prints the simulated seconds
+//   umbsim_instructions check FILE    counts and compares with FILE; 1 if a case costs over 5 % more, 77 if it cannot
+//   tell umbsim_instructions drive CASE    what is counted: prints the simulated seconds
 #include <unistd.h>
 
 #include <algorithm>
@@ -80,8 +80,8 @@ double number_after(const std::string& text, const char* word) {
   return at == std::string::npos ? 0 : std::strtod(text.c_str() + at + std::strlen(word), nullptr);
 }
 
-// The C library picks variants of sin and memcpy by processor; without these features it picks the same anywhere. An empty
-// environment: neither its size nor the locale counts.
+// The C library picks variants of sin and memcpy by processor; without these features it picks the same anywhere. An
+// empty environment: neither its size nor the locale counts.
 double instructions_per_simulated_s(const Case& c) {
   const std::string text = output_of(fmt::format(
       "env -i PATH=\"$PATH\" LC_ALL=C "

@@ -13,7 +13,8 @@ namespace {
 
 std::string wheel_geom(const Wheel& w, const std::string& shape) {
   if (shape == "sphere") return fmt::format("type='sphere' size='{}'", w.radius_m);
-  if (shape == "ellipsoid") return fmt::format("type='ellipsoid' size='{} {} {}'", w.radius_m, w.radius_m, w.width_m / 2);
+  if (shape == "ellipsoid")
+    return fmt::format("type='ellipsoid' size='{} {} {}'", w.radius_m, w.radius_m, w.width_m / 2);
   return fmt::format("type='cylinder' size='{} {}'", w.radius_m, w.width_m / 2);
 }
 
@@ -25,12 +26,12 @@ std::string cable_geom(const Cable& c) {
 
 std::string wheel_body(const Wheel& w, int i, const MujocoOptions& o) {
   const double toe_rad = std::atan2(-w.axis.x(), w.axis.y());
-  return fmt::format("<body pos='{} {} {}' euler='0 0 {}'><joint name='w{}' type='hinge' axis='0 1 0' damping='{}'/>"
-                     "<inertial pos='0 0 0' mass='{}' diaginertia='{} {} {}'/>"
-                     "<geom {} euler='1.5707963267948966 0 0'/></body>",
-                     w.centre_m.x(), w.centre_m.y(), w.centre_m.z(), toe_rad, i, o.servo == "damping" ? o.servo_gain : 0.0,
-                     w.mass_kg, w.transverse_inertia_kgm2, w.spin_inertia_kgm2, w.transverse_inertia_kgm2,
-                     wheel_geom(w, o.wheel));
+  return fmt::format(
+      "<body pos='{} {} {}' euler='0 0 {}'><joint name='w{}' type='hinge' axis='0 1 0' damping='{}'/>"
+      "<inertial pos='0 0 0' mass='{}' diaginertia='{} {} {}'/>"
+      "<geom {} euler='1.5707963267948966 0 0'/></body>",
+      w.centre_m.x(), w.centre_m.y(), w.centre_m.z(), toe_rad, i, o.servo == "damping" ? o.servo_gain : 0.0, w.mass_kg,
+      w.transverse_inertia_kgm2, w.spin_inertia_kgm2, w.transverse_inertia_kgm2, wheel_geom(w, o.wheel));
 }
 
 std::string motor(int i, double torque_limit_nm, const MujocoOptions& o) {
@@ -52,9 +53,10 @@ std::string model_xml(const Setup& s, const MujocoOptions& o) {
       s.step_s, o.integrator, o.cone, o.impratio, o.noslip_iterations, o.contact_time_s, o.contact_damping_ratio,
       o.solimp, s.floor.friction);
   for (const Cable& c : s.floor.cables) xml += cable_geom(c);
-  xml += fmt::format("<body name='base' pos='0 0 {}'><freejoint/><inertial pos='{} {} {}' mass='{}' diaginertia='{} {} {}'/>",
-                     r.wheels[0].radius_m, r.base.com_m.x(), r.base.com_m.y(), r.base.com_m.z(), r.base.mass_kg,
-                     diagonal[0], diagonal[1], diagonal[2]);
+  xml += fmt::format(
+      "<body name='base' pos='0 0 {}'><freejoint/><inertial pos='{} {} {}' mass='{}' diaginertia='{} {} {}'/>",
+      r.wheels[0].radius_m, r.base.com_m.x(), r.base.com_m.y(), r.base.com_m.z(), r.base.mass_kg, diagonal[0],
+      diagonal[1], diagonal[2]);
   for (const Caster& c : r.casters) {
     xml += fmt::format("<geom type='sphere' size='{}' pos='{} {} {}' condim='1' priority='1' friction='0 0 0'/>",
                        c.radius_m, c.centre_m.x(), c.centre_m.y(), c.centre_m.z());

@@ -58,11 +58,12 @@ std::string accuracy_plot(const std::vector<PlotPoint>& points) {
     for (const PlotPoint& p : points) {
       if (p.engine != engines[i]) continue;
       line += fmt::format("{:.1f},{:.1f} ", px(p.sim_s_per_s), py(p.error_mm));
-      svg += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='4' fill='{}'/>\n", px(p.sim_s_per_s), py(p.error_mm), colour);
+      svg +=
+          fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='4' fill='{}'/>\n", px(p.sim_s_per_s), py(p.error_mm), colour);
     }
     svg += fmt::format("<polyline points='{}' fill='none' stroke='{}' stroke-width='2'/>\n", line, colour);
-    svg += fmt::format("<text x='{}' y='{}' fill='{}'>{}</text>\n", kWidth - kRight + 14, kTop + 20 + 20 * double(i), colour,
-                       engines[i]);
+    svg += fmt::format("<text x='{}' y='{}' fill='{}'>{}</text>\n", kWidth - kRight + 14, kTop + 20 + 20 * double(i),
+                       colour, engines[i]);
   }
   return svg + "</svg>\n";
 }

@@ -122,8 +122,8 @@ class StockBullet : public Engine {
     body_ = std::make_unique<btMultiBody>(2, r.base.mass_kg, to_bullet(r.base.inertia_kgm2.diagonal()), false, false);
     for (int i = 0; i < 2; ++i) {
       const Wheel& w = r.wheels[i];
-      body_->setupRevolute(i, w.mass_kg, {w.transverse_inertia_kgm2, w.spin_inertia_kgm2, w.transverse_inertia_kgm2}, -1,
-                           btQuaternion::getIdentity(), {0, 1, 0}, to_bullet(w.centre_m - r.base.com_m), {0, 0, 0},
+      body_->setupRevolute(i, w.mass_kg, {w.transverse_inertia_kgm2, w.spin_inertia_kgm2, w.transverse_inertia_kgm2},
+                           -1, btQuaternion::getIdentity(), {0, 1, 0}, to_bullet(w.centre_m - r.base.com_m), {0, 0, 0},
                            true);
     }
     body_->finalizeMultiDof();

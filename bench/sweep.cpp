@@ -1,7 +1,7 @@
 // What a sweep costs beside its runs, and what a large store costs: umbsim_sweep_bench SWEEP.yaml [POINTS].
-// The same points are driven bare, by run_experiment alone, and by run_sweep, in turn, so that both meet the same machine.
-// Processor time is that of all threads, the median of all repeats. Then a store of POINTS (100000) points is written,
-// merged, opened, filtered and exported.
+// The same points are driven bare, by run_experiment alone, and by run_sweep, in turn, so that both meet the same
+// machine. Processor time is that of all threads, the median of all repeats. Then a store of POINTS (100000) points is
+// written, merged, opened, filtered and exported.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -56,7 +56,8 @@ void overhead(const Sweep& sweep, const fs::path& folder) {
   std::vector<double> bare_cpu, sweep_cpu, bare_wall, sweep_wall;
   for (int i = 0; i < kRepeats; ++i) {
     const Cost bare = measured([&] {
-      tbb::parallel_for(std::size_t(0), scenarios.size(), [&](std::size_t k) { run_experiment(scenarios[k], 0, false); });
+      tbb::parallel_for(std::size_t(0), scenarios.size(),
+                        [&](std::size_t k) { run_experiment(scenarios[k], 0, false); });
     });
     const Cost whole = measured([&] { run_sweep(sweep, {folder, 0, {}, true, false}); });
     bare_cpu.push_back(bare.cpu_s), bare_wall.push_back(bare.wall_s);
@@ -91,7 +92,8 @@ void large_store(std::int64_t points, const fs::path& folder) {
     for (std::int64_t i = 0; i < points; ++i) store.put(made_up(layout, i));
     store.settle();
   });
-  fmt::print("{} stored points: {:.0f} MB, {:.1f} s to write one by one\n", points, double(fs::file_size(file)) / 1e6, writing.wall_s);
+  fmt::print("{} stored points: {:.0f} MB, {:.1f} s to write one by one\n", points, double(fs::file_size(file)) / 1e6,
+             writing.wall_s);
   const Cost merging = measured([&] {
     Store merged = Store::open_for(folder / "merged.sqlite", layout, {{"version", "bench"}}, Store::Journal::wal);
     merged.take_over(file);
@@ -107,12 +109,15 @@ void large_store(std::int64_t points, const fs::path& folder) {
     fmt::print("{}: {} rows, {:.2f} s ({:.2f} s of processor), {:.0f} MB\n", what, rows, cost.wall_s, cost.cpu_s,
                double(fs::file_size(choice.file)) / 1e6);
   };
-  const std::vector<Condition> where{parse_condition("course.side_m >= 0.5", ""), parse_condition("calibration.method = heading", "")};
+  const std::vector<Condition> where{parse_condition("course.side_m >= 0.5", ""),
+                                     parse_condition("calibration.method = heading", "")};
   time("opening, all to CSV", {false, {}, {}, folder / "all.csv"});
   time("opening, all to JSON", {true, {}, {}, folder / "all.json"});
   time("opening, filtering, to CSV", {false, {}, where, folder / "some.csv"});
-  time("opening, filtering, four columns to CSV", {false, {"point", "course.side_m", "recovery.e_d_error", "recovery.e_b_error"}, where, folder / "few.csv"});
-  time("opening, all, four columns to JSON", {true, {"point", "course.side_m", "recovery.e_d_error", "recovery.e_b_error"}, {}, folder / "few.json"});
+  time("opening, filtering, four columns to CSV",
+       {false, {"point", "course.side_m", "recovery.e_d_error", "recovery.e_b_error"}, where, folder / "few.csv"});
+  time("opening, all, four columns to JSON",
+       {true, {"point", "course.side_m", "recovery.e_d_error", "recovery.e_b_error"}, {}, folder / "few.json"});
 }
 
 }  // namespace
@@ -123,8 +128,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   const fs::path folder = fs::temp_directory_path() / fmt::format("umbsim-sweep-bench-{}", getpid());
-  const Sweep sweep = read_sweep(argv[1], {}, {"effects.wheel_radius_difference.relative={from: -0.01, to: 0.01, count: 5}",
-                                               "effects.wheelbase.relative={from: -0.04, to: 0.04, count: 5}"});
+  const Sweep sweep = read_sweep(argv[1], {},
+                                 {"effects.wheel_radius_difference.relative={from: -0.01, to: 0.01, count: 5}",
+                                  "effects.wheelbase.relative={from: -0.04, to: 0.04, count: 5}"});
   overhead(sweep, folder / "sweep");
   large_store(argc > 2 ? std::stoll(argv[2]) : 100000, folder);
   fs::remove_all(folder);

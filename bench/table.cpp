@@ -1,5 +1,5 @@
-// The figures and their bars, from what umbsim_compare, umbsim_micro and umbsim_instructions wrote into a folder: prints
-// one table, writes bench.json and the tables of docs/bench.md.
+// The figures and their bars, from what umbsim_compare, umbsim_micro and umbsim_instructions wrote into a folder:
+// prints one table, writes bench.json and the tables of docs/bench.md.
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -133,8 +133,9 @@ std::string steps_markdown(const Json& micro) {
     const std::string name = b["name"];
     double step_us = 0, fine_us = 0;
     std::sscanf(name.c_str() + name.find('/'), "/step_us:%lf/fine_step_us:%lf", &step_us, &fine_us);
-    const std::string step = step_us == fine_us ? fmt::format("{:g} ms", step_us / 1e3)
-                                                : fmt::format("{:g} ms, near the cable {:g} ms", step_us / 1e3, fine_us / 1e3);
+    const std::string step = step_us == fine_us
+                                 ? fmt::format("{:g} ms", step_us / 1e3)
+                                 : fmt::format("{:g} ms, near the cable {:g} ms", step_us / 1e3, fine_us / 1e3);
     const std::string position =
         b.contains("error_to_finer_mm") ? fmt::format("{:.5f} mm, ", number(b, "error_to_finer_mm")) : "";
     text += fmt::format("| {} | {} | {:.2f} | {:.0f} | {}{:.5f}° |\n", name.substr(0, name.find('/')), step,

@@ -105,8 +105,8 @@ std::vector<Trial> cables(const RobotModel& robot) {
 }
 
 void print_header(const char* what, const char* error) {
-  fmt::print("\n{}\n{:<9}{:<10}{:<10}{:<9}{:>6}{:>9}{:>6}{:>9}{:>7}{:>9}{:>11}{:>10}\n", what, "integr.", "cone", "wheel",
-             "servo", "gain", "solref", "damp", "impratio", "noslip", "step ms", error, "sim s/s");
+  fmt::print("\n{}\n{:<9}{:<10}{:<10}{:<9}{:>6}{:>9}{:>6}{:>9}{:>7}{:>9}{:>11}{:>10}\n", what, "integr.", "cone",
+             "wheel", "servo", "gain", "solref", "damp", "impratio", "noslip", "step ms", error, "sim s/s");
 }
 
 void print(const Trial& t, double error) {
@@ -129,7 +129,8 @@ void report_squares(std::vector<Trial> trials) {
     }
     std::stable_sort(of_step.begin(), of_step.end(),
                      [](const Trial& a, const Trial& b) { return a.outcome.error < b.outcome.error; });
-    for (std::size_t i = 0; i < std::min(kShown, of_step.size()); ++i) print(of_step[i], 1e3 * of_step[i].outcome.error);
+    for (std::size_t i = 0; i < std::min(kShown, of_step.size()); ++i)
+      print(of_step[i], 1e3 * of_step[i].outcome.error);
   }
   print_header("Square: the fastest within 0.1 mm", "error mm");
   std::size_t shown = 0;

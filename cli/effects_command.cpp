@@ -16,8 +16,8 @@ void list_effects() {
 
 void show_effect(const EffectInfo& info) {
   const EffectText& t = info.text;
-  fmt::print("{} ({})\n  {}\n  lecture:       {}\n  source:        {}\n  in the data:   {}\n  confused with: {}\n", info.name,
-             name(info.stage), t.description, t.lecture, t.source, t.signature, t.confused_with);
+  fmt::print("{} ({})\n  {}\n  lecture:       {}\n  source:        {}\n  in the data:   {}\n  confused with: {}\n",
+             info.name, name(info.stage), t.description, t.lecture, t.source, t.signature, t.confused_with);
   for (const EffectParameter& p : info.parameters) {
     fmt::print("  {} [{}]: neutral {}, plausible {} to {}, allowed: {}\n", p.name, p.unit, p.neutral, p.plausible_min,
                p.plausible_max, p.bounds.text());

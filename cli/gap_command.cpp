@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include "cli/commands.h"
 #include "cli/gap_menu.h"
@@ -19,7 +18,6 @@
 #include "gap/check.h"
 #include "gap/clock.h"
 #include "gap/diagnosis_json.h"
-#include "gap/diagnosis_progress.h"
 #include "gap/plan_ties.h"
 #include "gap/remembered.h"
 #include "gap/tracks_json.h"
@@ -42,12 +40,6 @@ struct DiagnoseArguments {
 std::string folder_name(const std::string& path) {
   const fs::path p = fs::absolute(path).lexically_normal();
   return p.has_filename() ? p.filename().string() : p.parent_path().filename().string();
-}
-
-// Stages of the work and the time left, on a terminal only.
-void show_stage(double elapsed_s, const std::string& stage, double left_s) {
-  const std::string left = left_s < 0 ? "" : fmt::format(", about {:.0f} s left", std::ceil(left_s));
-  fmt::print(stderr, "\r\033[K{:5.1f} s  {}{}", elapsed_s, stage, left);
 }
 
 // The scenario with the diagnosed effects added; each effect once.
@@ -76,9 +68,11 @@ void keep_urdf(const Scenario& scenario, const fs::path& into) {
 std::string summary_text(const gap::Diagnosis& d, const std::vector<gap::NextExperiment>& next) {
   std::string text;
   if (!d.detected) {
-    text += fmt::format("No gap beyond the noise (floor {:.1f} mm, scenario off by {:.1f} mm).\n", d.noise_floor_mm, d.before_mm);
+    text += fmt::format("No gap beyond the noise (floor {:.1f} mm, scenario off by {:.1f} mm).\n", d.noise_floor_mm,
+                        d.before_mm);
   } else {
-    text += fmt::format("Gap: the scenario is off by {:.1f} mm; run-to-run noise makes {:.1f} mm.\n", d.before_mm, d.noise_floor_mm);
+    text += fmt::format("Gap: the scenario is off by {:.1f} mm; run-to-run noise makes {:.1f} mm.\n", d.before_mm,
+                        d.noise_floor_mm);
     text += fmt::format("Where: stage {}, pattern {}", d.stage, d.pattern.empty() ? "undecided" : d.pattern);
     if (d.has_place) text += fmt::format(", at ({:.2f}, {:.2f}) m", d.place_m[0], d.place_m[1]);
     text += "\nWhich:\n";
@@ -94,15 +88,17 @@ std::string summary_text(const gap::Diagnosis& d, const std::vector<gap::NextExp
       text += "\n";
     }
     text += fmt::format("Not told apart: {}\n", fmt::join(d.set, ", "));
-    for (const auto& group : d.indistinguishable) text += fmt::format("Alike in these runs: {}\n", fmt::join(group, ", "));
+    for (const auto& group : d.indistinguishable)
+      text += fmt::format("Alike in these runs: {}\n", fmt::join(group, ", "));
     for (const gap::NextExperiment& n : next) {
       text += fmt::format("Next: {} separates {}\n", n.run, fmt::join(n.separates, ", "));
     }
     if (!d.left_over.empty()) text += fmt::format("Left over: {}\n", d.left_over);
     if (d.closure.known) {
-      text += fmt::format("How far: held-out closure {:.1f} % [{:.1f}, {:.1f}]: {:.1f} mm -> {:.1f} mm, {:.3f} deg -> {:.3f} deg\n",
-                          100 * d.closure.fraction, 100 * d.closure.ci95[0], 100 * d.closure.ci95[1], d.closure.before_mm,
-                          d.closure.after_mm, d.closure.before_deg, d.closure.after_deg);
+      text += fmt::format(
+          "How far: held-out closure {:.1f} % [{:.1f}, {:.1f}]: {:.1f} mm -> {:.1f} mm, {:.3f} deg -> {:.3f} deg\n",
+          100 * d.closure.fraction, 100 * d.closure.ci95[0], 100 * d.closure.ci95[1], d.closure.before_mm,
+          d.closure.after_mm, d.closure.before_deg, d.closure.after_deg);
     }
   }
   for (const std::string& limit : d.limits) text += "Limit: " + limit + "\n";
@@ -118,7 +114,8 @@ std::vector<gap::NextExperiment> next_runs(const Scenario& scenario, const Recor
   without_runs.runs.clear();
   const Recording driven = with_menu(std::move(without_runs), scenario, menu);
   const Replay replay(scenario, driven);
-  const gap::Model model(driven, gap::remembered(cached_gap_simulator(replay, no_cache), driven), gap::Scatter{}, noise);
+  const gap::Model model(driven, gap::remembered(cached_gap_simulator(replay, no_cache), driven), gap::Scatter{},
+                         noise);
   std::vector<std::string> labels;
   for (const gap::MenuRun& m : menu) labels.push_back(m.label);
   return gap::next_experiments(model, labels, ties, gap::Thresholds{});
@@ -133,33 +130,20 @@ std::string page(const gap::Model& model, const gap::Diagnosis& d, const Json& j
   return render_gap_report(data);
 }
 
-// With poses between end points, and a tracker's own clock set to the encoders'.
-Recording followed_through(const Recording& given, std::vector<std::string>& limits) {
-  Recording recording = gap::with_moments_between(given);
-  if (!gap::tracker_is_free(recording) || recording.truth_kind != "track") return recording;
-  gap::ClocksAligned aligned = gap::with_clocks_aligned(std::move(recording));
-  if (aligned.most_offset_s > 0) {
-    limits.push_back(fmt::format("the tracker's clock was moved by up to {:.0f} ms and {:.2f} % to agree with the encoders': "
-                                 "latency and clock cannot be told apart", 1000 * aligned.most_offset_s,
-                                 100 * aligned.most_rate));
-  }
-  return std::move(aligned.recording);
-}
-
 void run_diagnose(const DiagnoseArguments& a) {
   const auto start = std::chrono::steady_clock::now();
   const std::string out = a.out.empty() ? "results/" + folder_name(a.recording) + "-diagnosis" : a.out;
   for (const std::string& e : a.excluded) find_effect(e);
   const Recording given = read_recording(a.recording);
   std::vector<std::string> limits = gap::check_recording(given, a.recording);
-  const Recording recording = followed_through(given, limits);
+  const Recording recording = gap::followed_through(given, limits);
   const Scenario scenario = a.scenario.empty() ? scenario_of(recording, a.recording) : read_scenario(a.scenario);
   prepare_output_folder(out, a.force);
   const Replay replay(scenario, recording);
-  const bool terminal = isatty(2) != 0;
-  gap::DiagnosisProgress progress(recording.runs.size(), terminal ? show_stage : [](double, const std::string&, double) {});
-  const gap::Say say = [&](const std::string& stage) { progress.stage(stage); };
-  const gap::Model model(recording, gap::remembered(progress.counted(cached_gap_simulator(replay, a.no_cache)), recording), gap::Scatter{});
+  GapStages stages(recording.runs.size());
+  const gap::Say say = [&](const std::string& stage) { stages.say(stage); };
+  const gap::Simulator simulator = stages.counted(cached_gap_simulator(replay, a.no_cache));
+  const gap::Model model(recording, gap::remembered(simulator, recording), gap::Scatter{});
   const std::set<std::string> excluded(a.excluded.begin(), a.excluded.end());
   gap::Diagnosis d = gap::diagnose(model, excluded, gap::Thresholds{}, say);
   d.limits = limits;
@@ -167,7 +151,7 @@ void run_diagnose(const DiagnoseArguments& a) {
   const gap::Ties ties = gap::find_ties(model, d, excluded, gap::Thresholds{});
   gap::add_ties(ties, gap::Thresholds{}, d);
   const std::vector<gap::NextExperiment> next = next_runs(scenario, recording, ties, d.noise, a.no_cache);
-  if (terminal) fmt::print(stderr, "\r\033[K");
+  stages.done();
   Json json = gap::diagnosis_json(d);
   json["next_experiment"] = Json::array();
   for (const gap::NextExperiment& n : next) {
@@ -193,10 +177,13 @@ void add_gap_command(CLI::App& app) {
   group->require_subcommand(1);
   const auto a = std::make_shared<DiagnoseArguments>();
   CLI::App* command = group->add_subcommand(
-      "diagnose", "Where the simulator and the recorded robot part, which effect explains it, how much adding it helps");
+      "diagnose",
+      "Where the simulator and the recorded robot part, which effect explains it, how much adding it helps");
   command->add_option("recording", a->recording, "Folder of the recording (real or simulated)")->required();
-  command->add_option("--scenario", a->scenario, "Scenario that was thought to describe it; default: the recording's robot");
-  command->add_option("--exclude", a->excluded, "Take an effect out of the catalogue (repeatable)")->allow_extra_args(false);
+  command->add_option("--scenario", a->scenario,
+                      "Scenario that was thought to describe it; default: the recording's robot");
+  command->add_option("--exclude", a->excluded, "Take an effect out of the catalogue (repeatable)")
+      ->allow_extra_args(false);
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<recording>-diagnosis");
   command->add_flag("--force", a->force, "Replace a finished result");
   command->add_flag("--no-cache", a->no_cache, "Keep no simulated tracks in the user's cache folder, and use none");

@@ -12,6 +12,7 @@
 #include "experiment/result_json.h"
 #include "experiment/run_folder.h"
 #include "gap/check.h"
+#include "gap/clock.h"
 #include "gap/plan_json.h"
 #include "gap/remembered.h"
 
@@ -79,7 +80,7 @@ Subject of_recording(const std::string& folder, bool no_cache) {
   const Recording given = read_recording(folder);
   s.limits = gap::check_recording(given, folder);
   s.name = fs::absolute(folder / fs::path(".")).lexically_normal().parent_path().filename().string();
-  s.recording = gap::with_moments_between(given);
+  s.recording = gap::followed_through(given, s.limits);
   s.scenario = scenario_of(s.recording, folder);
   const Replay replay(s.scenario, s.recording);
   const gap::Model model(s.recording, gap::remembered(cached_gap_simulator(replay, no_cache), s.recording), s.scatter);
@@ -123,8 +124,12 @@ void plan(const PlanArguments& a) {
   const Recording all = with_menu(s.recording, s.scenario, menu);
   context.durations_s = durations_s(all);
   const Replay replay(s.scenario, all);
-  const gap::Model model(all, gap::remembered(cached_gap_simulator(replay, a.no_cache), all), s.scatter, s.noise);
+  GapStages stages(all.runs.size());
+  stages.say("driving the runs and the menu under every effect");
+  const gap::Simulator simulator = stages.counted(cached_gap_simulator(replay, a.no_cache));
+  const gap::Model model(all, gap::remembered(simulator, all), s.scatter, s.noise);
   const gap::Plan result = gap::plan(model, context.given, s.scatter.radius, options);
+  stages.done();
   write_folder(out, a.force, [&](const fs::path& into) {
     write_text_file(into / "plan.json", gap::plan_json(result, context, options, s.noise).dump(1) + "\n");
     write_text_file(into / "provenance.json", provenance_json(a.subject, options.seed).dump(2) + "\n");
@@ -138,13 +143,17 @@ void add_gap_plan_command(CLI::App& group) {
   const auto a = std::make_shared<PlanArguments>();
   CLI::App* command = group.add_subcommand(
       "plan", "Before any data: which effects a set of runs can tell apart, and the shortest set that does");
-  command->add_option("subject", a->subject, "Scenario (its own runs) or folder of a recording (the same runs)")->required();
-  command->add_option("--effects", a->effects, "Effects to be told apart, by commas; default: the catalogue")->delimiter(',');
+  command->add_option("subject", a->subject, "Scenario (its own runs) or folder of a recording (the same runs)")
+      ->required();
+  command->add_option("--effects", a->effects, "Effects to be told apart, by commas; default: the catalogue")
+      ->delimiter(',');
   command->add_option("--exclude", a->excluded, "Leave an effect out (repeatable)")->allow_extra_args(false);
   command->add_option("--severity", a->options.severity, "Size of each effect in noise floors of these runs")
       ->check(CLI::Range(0.1, 1000.0))->capture_default_str();
-  command->add_option("--alike", a->options.alike, "Probability of a mistake above which two effects are not told apart")
-      ->check(CLI::Range(0.001, 0.5))->capture_default_str();
+  command
+      ->add_option("--alike", a->options.alike, "Probability of a mistake above which two effects are not told apart")
+      ->check(CLI::Range(0.001, 0.5))
+      ->capture_default_str();
   command->add_option("--draws", a->options.draws, "Sampled cases of each effect")
       ->check(CLI::Range(10, 100000))->capture_default_str();
   command->add_option("--seed", a->options.seed, "Of the sampled cases")->capture_default_str();

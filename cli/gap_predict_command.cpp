@@ -69,7 +69,8 @@ Scores scores(const Recording& recording, const gap::Prediction& p) {
 }
 
 Json error_json(const gap::RunError& e) {
-  return {{"final_mm", e.final_mm}, {"along_mm", e.along_mm}, {"raw_final_mm", e.raw_final_mm}, {"frame_deg", e.frame_deg}};
+  return {
+      {"final_mm", e.final_mm}, {"along_mm", e.along_mm}, {"raw_final_mm", e.raw_final_mm}, {"frame_deg", e.frame_deg}};
 }
 
 Json prediction_json(const Recording& recording, const std::vector<Scores>& all) {
@@ -105,7 +106,8 @@ void predict(const PredictArguments& a) {
   const Recording recording = read_recording(a.recording);
   gap::check_recording(recording, a.recording);
   const Scenario scenario = read_scenario(a.scenario);
-  const std::string base = fs::absolute(a.recording / fs::path(".")).lexically_normal().parent_path().filename().string();
+  const std::string base =
+      fs::absolute(a.recording / fs::path(".")).lexically_normal().parent_path().filename().string();
   const std::string out = a.out.empty() ? "results/" + base + "-prediction" : a.out;
   prepare_output_folder(out, a.force);
   const Replay replay(scenario, recording);
@@ -117,10 +119,11 @@ void predict(const PredictArguments& a) {
   });
   std::vector<std::string> effects;
   for (const Effect& e : scenario.effects) effects.push_back(e.info->name);
-  fmt::print("{}: {}\nEffects of {}: {}\nFinal position error in mm, start and frame fitted (recorded start taken as exact)\n"
-             "{}Result in {}: prediction.json\n",
-             base, recording.title, a.scenario, effects.empty() ? "none" : fmt::format("{}", fmt::join(effects, ", ")),
-             table(recording, all), out);
+  fmt::print(
+      "{}: {}\nEffects of {}: {}\nFinal position error in mm, start and frame fitted (recorded start taken as exact)\n"
+      "{}Result in {}: prediction.json\n",
+      base, recording.title, a.scenario, effects.empty() ? "none" : fmt::format("{}", fmt::join(effects, ", ")),
+      table(recording, all), out);
 }
 
 }  // namespace
@@ -128,10 +131,13 @@ void predict(const PredictArguments& a) {
 void add_gap_predict_command(CLI::App& group) {
   const auto a = std::make_shared<PredictArguments>();
   CLI::App* command = group.add_subcommand(
-      "predict", "Replay a recording from its ticks under a scenario's effects: how far the prediction ends from the truth");
+      "predict",
+      "Replay a recording from its ticks under a scenario's effects: how far the prediction ends from the truth");
   command->add_option("recording", a->recording, "Folder of the recording (real or simulated)")->required();
-  command->add_option("--scenario", a->scenario, "Scenario with the effects, such as the twin.yaml of a diagnosis")->required();
-  command->add_option("--squares", a->squares, "UMBmark squares of the same robot: compare with odometry calibrated on them");
+  command->add_option("--scenario", a->scenario, "Scenario with the effects, such as the twin.yaml of a diagnosis")
+      ->required();
+  command->add_option("--squares", a->squares,
+                      "UMBmark squares of the same robot: compare with odometry calibrated on them");
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<recording>-prediction");
   command->add_flag("--force", a->force, "Replace a finished result");
   command->callback([a] { predict(*a); });

@@ -37,7 +37,8 @@ struct ExportArguments {
 };
 
 Sweep read(const SweepArguments& a) {
-  if (a.sweep.empty()) throw InputError("sweep: a sweep file is missing, as in `umbsim sweep scenarios/sweeps/recovery.yaml`");
+  if (a.sweep.empty())
+    throw InputError("sweep: a sweep file is missing, as in `umbsim sweep scenarios/sweeps/recovery.yaml`");
   return read_sweep(a.sweep, a.settings, a.axes);
 }
 
@@ -70,7 +71,8 @@ void conclude(const Sweep& sweep, const SweepArguments& a, const fs::path& folde
   print_failed(result);
   fmt::print("{}Result in {}: open {}/report.html\n", checks_text(result.checks), folder.string(), folder.string());
   if (result.missing > 0) {
-    throw Exit(kRunFailed, fmt::format("{} of {} points are missing: a shard has not finished", result.missing, sweep.points));
+    throw Exit(kRunFailed,
+               fmt::format("{} of {} points are missing: a shard has not finished", result.missing, sweep.points));
   }
   if (!result.failed.empty() && !result.failures_are_expected) {
     throw Exit(kRunFailed, fmt::format("{} points could not be driven", result.failed.size()));
@@ -79,8 +81,9 @@ void conclude(const Sweep& sweep, const SweepArguments& a, const fs::path& folde
 }
 
 void stopped(int signal, const fs::path& folder) {
-  throw Exit(kSignalled + signal,
-             fmt::format("stopped; the finished points are kept in {}, the same command goes on from there", folder.string()));
+  throw Exit(
+      kSignalled + signal,
+      fmt::format("stopped; the finished points are kept in {}, the same command goes on from there", folder.string()));
 }
 
 void sweep_all(const SweepArguments& a) {
@@ -137,7 +140,9 @@ void add_export(CLI::App* sweep) {
   const auto a = std::make_shared<ExportArguments>();
   CLI::App* command = sweep->add_subcommand("export", "Write the points of a sweep as CSV or JSON");
   command->add_option("sweep", a->sweep, "Folder of a sweep, or its database")->required();
-  command->add_option("--format", a->format, "csv or json")->check(CLI::IsMember({"csv", "json"}))->capture_default_str();
+  command->add_option("--format", a->format, "csv or json")
+      ->check(CLI::IsMember({"csv", "json"}))
+      ->capture_default_str();
   command->add_option("-o,--out", a->out, "File; default standard output");
   command->add_option("--columns", a->columns, "Columns, with commas between; default all that hold anything")
       ->delimiter(',')
@@ -154,7 +159,8 @@ void add_sweep_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "sweep", "Drive a scenario over axes of parameters; started again, it goes on where it was stopped");
   add_common_options(command, a);
-  command->add_option("--shard", a->shard, "Drive only part i of n, as in 2/4; `sweep merge` joins the parts and checks");
+  command->add_option("--shard", a->shard,
+                      "Drive only part i of n, as in 2/4; `sweep merge` joins the parts and checks");
   command->add_flag("--force", a->force, "Begin anew, whatever is there");
   command->add_flag("--retry-failed", a->retry_failed, "Drive the points again that could not be driven");
   command->require_subcommand(0, 1);

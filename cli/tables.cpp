@@ -86,7 +86,8 @@ std::string uncertainty_line(const ExperimentResult& r) {
 }
 
 std::string recovery_table(const ExperimentResult& r) {
-  std::string text = fmt::format("Calibration ({} form), proved by driving again\n", name(r.scenario.calibration.method));
+  std::string text =
+      fmt::format("Calibration ({} form), proved by driving again\n", name(r.scenario.calibration.method));
   text += cluster_header();
   for (const CalibrationPass& pass : r.passes) {
     text += cluster_line("cw", pass.umbmark.cw) + cluster_line("ccw", pass.umbmark.ccw);
@@ -94,7 +95,9 @@ std::string recovery_table(const ExperimentResult& r) {
   const CalibrationPass& last = r.passes.back();
   const double before_m = r.umbmark->e_max_syst_m, after_m = last.umbmark.e_max_syst_m;
   text += fmt::format("  E_max,syst {:.3f} mm -> {:.3f} mm", mm(before_m), mm(after_m));
-  if (after_m > 0) text += fmt::format("  ({:.3g} times smaller, {} pass{})", before_m / after_m, r.passes.size(), r.passes.size() == 1 ? "" : "es");
+  if (after_m > 0)
+    text += fmt::format("  ({:.3g} times smaller, {} pass{})", before_m / after_m, r.passes.size(),
+                        r.passes.size() == 1 ? "" : "es");
   const double e_d = last.odometry.right_radius_m / last.odometry.left_radius_m * r.odometry.left_radius_m /
                      r.odometry.right_radius_m;
   const double e_b = last.odometry.wheelbase_m / r.odometry.wheelbase_m;
@@ -111,10 +114,10 @@ std::string cables_line(const ExperimentResult& r) {
                         r.cables.not_crossed, mm(laid.height_m));
   }
   if (r.cables.without_grip > 0) {
-    text += fmt::format("  Warning: the wheel cannot climb {} of the laid cables on its own traction: friction is below tan "
-                        "psi = {:.2f}. Its slip, not the cable, turned the robot.\n",
-                        r.cables.without_grip,
-                        climbing_friction(r.nominal.wheels[0].radius_m, laid.height_m));
+    text += fmt::format(
+        "  Warning: the wheel cannot climb {} of the laid cables on its own traction: friction is below tan "
+        "psi = {:.2f}. Its slip, not the cable, turned the robot.\n",
+        r.cables.without_grip, climbing_friction(r.nominal.wheels[0].radius_m, laid.height_m));
   }
   return text;
 }
@@ -143,7 +146,8 @@ std::string extended_table(const ExtendedUmbmark& e) {
 }
 
 std::string experiment_table(const ExperimentResult& r) {
-  std::string text = fmt::format("{}: {} on a {} m square\n", r.scenario.name, r.nominal.urdf, r.scenario.course.side_m);
+  std::string text =
+      fmt::format("{}: {} on a {} m square\n", r.scenario.name, r.nominal.urdf, r.scenario.course.side_m);
   if (!r.umbmark) return text + one_way_table(r) + cables_line(r) + comparison_table(r) + uncertainty_line(r);
   text += umbmark_table(*r.umbmark) + injected_line(r.injected);
   const double smaller_m = std::min(r.umbmark->cw.r_cg_m, r.umbmark->ccw.r_cg_m);

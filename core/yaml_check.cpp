@@ -44,7 +44,8 @@ class StrictEvents : public YAML::EventHandler {
   void OnMapEnd() override { close(); }
 
   int documents() const { return documents_; }
-  /// A map or list stands where a key belongs. Without its closing bracket yaml-cpp takes it for one before it complains.
+  /// A map or list stands where a key belongs. Without its closing bracket yaml-cpp takes it for one before it
+  /// complains.
   bool odd_key() const { return odd_key_; }
 
  private:
@@ -113,7 +114,9 @@ class AnyEvents : public YAML::EventHandler {
   void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
   void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
   void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
-  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override { open(); }
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    open();
+  }
   void OnSequenceEnd() override { --depth_; }
   void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override { open(); }
   void OnMapEnd() override { --depth_; }

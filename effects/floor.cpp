@@ -37,7 +37,8 @@ void apply(const CarpetDrift& effect, Rig& rig) {
 void apply(const PushEffect& effect, Rig& rig) {
   if (effect.impulse_newton_seconds == 0) return;
   if (!effect.run.empty() && effect.run != rig.run.id) return;
-  Push push{effect.seconds_into_leg, effect.duration_s, effect.impulse_newton_seconds, effect.direction_rad, effect.ahead_m, 0};
+  Push push{effect.seconds_into_leg, effect.duration_s, effect.impulse_newton_seconds,
+            effect.direction_rad,    effect.ahead_m,    0};
   rig.pushes.push_back({int(std::lround(effect.leg)), push});
 }
 

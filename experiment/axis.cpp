@@ -49,7 +49,8 @@ void add_count(Axis& axis, const YamlValue& value) {
 void add_steps(Axis& axis, const YamlValue& value) {
   const double step = value.number(Bounds::positive());
   const double steps = std::floor((axis.to - axis.from) / step + kStepSlack);
-  if (steps >= double(kMaxCount)) value.fail(fmt::format("{} is out of range (must give <= {} values)", step, kMaxCount));
+  if (steps >= double(kMaxCount))
+    value.fail(fmt::format("{} is out of range (must give <= {} values)", step, kMaxCount));
   for (double i = 0; i <= steps; ++i) axis.values.push_back(number_value(axis, axis.from + i * step));
 }
 
@@ -61,15 +62,18 @@ void read_range(Axis& axis, const YamlValue& value, bool may_sample) {
   axis.integer = map.boolean("integer", false);
   const auto count = map.find("count"), step = map.find("step");
   map.finish();
-  if (axis.to < axis.from) map.at("to").fail(fmt::format("{} is out of range (must be >= from = {})", axis.to, axis.from));
-  if (axis.logarithmic && axis.from <= 0) map.at("from").fail(fmt::format("{} is out of range (must be > 0 with scale: log)", axis.from));
+  if (axis.to < axis.from)
+    map.at("to").fail(fmt::format("{} is out of range (must be >= from = {})", axis.to, axis.from));
+  if (axis.logarithmic && axis.from <= 0)
+    map.at("from").fail(fmt::format("{} is out of range (must be > 0 with scale: log)", axis.from));
   if (count && step) value.fail("has both count and step; one of them says how many values there are");
   if (step && axis.logarithmic) step->fail("has no meaning with scale: log; give a count");
   if (may_sample && count) count->fail("has no meaning here: this design samples a range as often as `samples` says");
   if (may_sample && step) step->fail("has no meaning here: this design samples a range as often as `samples` says");
   if (count) add_count(axis, *count);
   else if (step) add_steps(axis, *step);
-  else if (!may_sample) value.fail("must have count or step; only latin_hypercube and sobol sample a range without them");
+  else if (!may_sample)
+    value.fail("must have count or step; only latin_hypercube and sobol sample a range without them");
 }
 
 // Flow YAML of any value, on one line.
@@ -127,7 +131,8 @@ Axis read_axis(const std::string& key, const YamlValue& value, bool may_sample) 
 
 AxisValue sampled_value(const Axis& axis, double share) {
   // Every integer takes the same share.
-  if (axis.integer) return number_value(axis, std::min(axis.to, std::floor(axis.from + share * (axis.to - axis.from + 1))));
+  if (axis.integer)
+    return number_value(axis, std::min(axis.to, std::floor(axis.from + share * (axis.to - axis.from + 1))));
   return number_value(axis, between(axis, share));
 }
 

@@ -45,8 +45,8 @@ void CableLayer::lay_if_due(const Pose2& X_SB, int segment, World& world, const 
   record.bumps.push_back({last_->x_m, last_->y_m, last_->height_m});
 }
 
-// Passed: the wheel's centre is beyond the cable's axis, and was above the cable, not beside its end, when it came there.
-// The cable lies across, to the left of the way it was laid.
+// Passed: the wheel's centre is beyond the cable's axis, and was above the cable, not beside its end, when it came
+// there. The cable lies across, to the left of the way it was laid.
 void CableLayer::watch(const World& world, bool last_chance) {
   if (!last_) return;
   const Eigen::Vector3d wheel = world.wheel_centre(wheel_);

@@ -19,7 +19,8 @@ class CableLayer {
   /// Call once per control period. `X_SB`: where the robot believes to be, `segment` of the plan.
   void lay_if_due(const Pose2& X_SB, int segment, World& world, const Rig& rig, RecordedRun& record);
 
-  /// Not crossed: the wheel had not passed it when the next one was due or at the end of the leg, or went round its end.
+  /// Not crossed: the wheel had not passed it when the next one was due or at the end of the leg, or went round its
+  /// end.
   CableCount count() const { return {count_.not_crossed + int(last_.has_value()), count_.without_grip}; }
 
  private:

@@ -20,7 +20,8 @@ struct RunSpec {
 /// What went wrong with laid cables.
 struct CableCount {
   int not_crossed = 0;   ///< the wheel did not get over them
-  int without_grip = 0;  ///< friction below tan psi: the wheel cannot climb them on its own traction, only be pushed over
+  int without_grip =
+      0;  ///< friction below tan psi: the wheel cannot climb them on its own traction, only be pushed over
 };
 
 /// What a run left behind, and what it cost.

@@ -93,7 +93,8 @@ Outcome over_all_points(const Expectation& e, const std::vector<Outcome>& points
 Check check_one(const Expectation& e, const FigureTable& table) {
   Check c{e, {}, 0};
   if (e.figure == kFailedPoints) {
-    const auto failed = std::count_if(table.rows.begin(), table.rows.end(), [](const auto& r) { return !r.error.empty(); });
+    const auto failed =
+        std::count_if(table.rows.begin(), table.rows.end(), [](const auto& r) { return !r.error.empty(); });
     c.outcomes.push_back({-1, "all points", std::int64_t(failed), within(e, std::int64_t(failed))});
   } else {
     const std::size_t figure = column(table, e.figure);
@@ -121,7 +122,9 @@ const Outcome& worst(const Check& c) {
                            [&](const Outcome& a, const Outcome& b) { return size(a) < size(b); });
 }
 
-std::string value_text(const Cell& value) { return is_number(value) ? fmt::format("{:.6g}", number_of(value)) : "no value"; }
+std::string value_text(const Cell& value) {
+  return is_number(value) ? fmt::format("{:.6g}", number_of(value)) : "no value";
+}
 
 std::string check_text(const Check& c, std::size_t most) {
   const bool alone = c.outcomes.size() == 1;

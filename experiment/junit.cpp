@@ -28,14 +28,17 @@ void add_check(tinyxml2::XMLPrinter& xml, const std::string& suite, const Check&
   for (const Outcome& o : check.outcomes) {
     const std::string point = o.point < 0 ? o.label : fmt::format("point {}, {}", o.point, o.label);
     open_case(xml, suite, check.expectation.figure, fmt::format("{} ({})", expected, point));
-    if (!o.met) add_fault(xml, "failure", fmt::format("{} = {}, expected {}", check.expectation.figure, value_text(o.value), expected));
+    if (!o.met)
+      add_fault(xml, "failure",
+                fmt::format("{} = {}, expected {}", check.expectation.figure, value_text(o.value), expected));
     xml.CloseElement();
   }
 }
 
 }  // namespace
 
-std::string junit_xml(const std::string& suite, const std::vector<Check>& checks, const std::vector<FailedPoint>& failed) {
+std::string junit_xml(const std::string& suite, const std::vector<Check>& checks,
+                      const std::vector<FailedPoint>& failed) {
   std::int64_t tests = failed.empty() ? 1 : std::int64_t(failed.size()), failures = 0;
   for (const Check& c : checks) tests += std::int64_t(c.outcomes.size()), failures += c.unmet;
   tinyxml2::XMLPrinter xml;

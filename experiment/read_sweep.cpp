@@ -26,12 +26,15 @@ bool is_sampling(Design design) { return design == Design::latin_hypercube || de
 YamlValue read_base(Sweep& sweep, YamlMap& map, const std::vector<std::string>& settings) {
   const YamlValue file = map.at("scenario");
   const fs::path given = file.string();
-  sweep.scenario_file = (given.is_absolute() ? given : fs::path(sweep.file).parent_path() / given).lexically_normal().string();
-  if (!fs::is_regular_file(sweep.scenario_file)) file.fail(fmt::format("'{}': there is no such file", sweep.scenario_file));
+  sweep.scenario_file =
+      (given.is_absolute() ? given : fs::path(sweep.file).parent_path() / given).lexically_normal().string();
+  if (!fs::is_regular_file(sweep.scenario_file))
+    file.fail(fmt::format("'{}': there is no such file", sweep.scenario_file));
   const YamlValue base = YamlValue::load(sweep.scenario_file);
   if (const auto set = map.find("set")) {
     try {
-      for (const auto& [key, value] : YamlMap(*set).entries()) apply_setting(base, key + "=" + read_axis_value(value).yaml);
+      for (const auto& [key, value] : YamlMap(*set).entries())
+        apply_setting(base, key + "=" + read_axis_value(value).yaml);
       read_scenario(base);
     } catch (const InputError& e) {
       set->fail(e.what());
@@ -63,7 +66,8 @@ void read_axes(Sweep& sweep, YamlMap& map, const std::vector<std::string>& setti
   }
   for (const std::string& setting : settings) {
     const Axis axis = read_axis_setting(setting, sampling);
-    const auto same = std::find_if(sweep.axes.begin(), sweep.axes.end(), [&](const Axis& a) { return a.key == axis.key; });
+    const auto same =
+        std::find_if(sweep.axes.begin(), sweep.axes.end(), [&](const Axis& a) { return a.key == axis.key; });
     if (same == sweep.axes.end()) sweep.axes.push_back(axis);
     else *same = axis;
   }
@@ -110,7 +114,8 @@ void count_points(Sweep& sweep, const YamlValue& document) {
   if (sweep.design != Design::list) {
     for (const Axis& axis : sweep.axes) points *= axis.sampled() ? 1 : double(axis.values.size());
   }
-  if (points > double(kMaxPoints)) document.fail(fmt::format("{} points are too many (must be <= {})", points, kMaxPoints));
+  if (points > double(kMaxPoints))
+    document.fail(fmt::format("{} points are too many (must be <= {})", points, kMaxPoints));
   sweep.points = std::int64_t(points);
 }
 
@@ -123,7 +128,8 @@ void check_keys(const Sweep& sweep) {
       throw InputError(axis.mark, fmt::format("'{}' cannot be an axis", axis.key));
     }
     if (axis.key == "seed" && (sweep.replicates > 1 || sweep.own_seeds)) {
-      throw InputError(axis.mark, "an axis over the seed leaves nothing to `replicates` and `seeds: own`, which vary it");
+      throw InputError(axis.mark,
+                       "an axis over the seed leaves nothing to `replicates` and `seeds: own`, which vary it");
     }
   }
 }
@@ -175,7 +181,8 @@ void check_conditions(const Sweep& sweep, const YamlValue& expect) {
 
 }  // namespace
 
-Sweep read_sweep(const std::string& file, const std::vector<std::string>& settings, const std::vector<std::string>& axes) {
+Sweep read_sweep(const std::string& file, const std::vector<std::string>& settings,
+                 const std::vector<std::string>& axes) {
   const YamlValue document = YamlValue::load(file);
   YamlMap map(document);
   Sweep sweep;

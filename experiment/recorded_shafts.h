@@ -12,11 +12,11 @@ namespace umbsim {
 /// commands. `steps`: time steps of the simulator per sample.
 double measured_lag(const RecordedRun& run, double radians_per_tick, int steps);
 
-/// Speeds (rad/s) of a shaft at the encoder samples, from what arrived of its rotation through an encoder that reads late,
-/// latches, and misses counts (put back in the mean). Commands, where there are some, give the fine structure (`lag_s` late),
-/// counts the drift; otherwise the counts are smoothed.
-std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec, const EncoderFaults& faults, bool left,
-                                 double lag_s, int steps);
+/// Speeds (rad/s) of a shaft at the encoder samples, from what arrived of its rotation through an encoder that reads
+/// late, latches, and misses counts (put back in the mean). Commands, where there are some, give the fine structure
+/// (`lag_s` late), counts the drift; otherwise the counts are smoothed.
+std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec, const EncoderFaults& faults,
+                                 bool left, double lag_s, int steps);
 
 /// What such an encoder makes of shaft angles (left, right; radians) at its samples.
 std::vector<std::array<double, 2>> arrived(const std::vector<std::array<double, 2>>& shaft,

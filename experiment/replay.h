@@ -9,8 +9,8 @@
 
 namespace umbsim {
 
-/// Drives a recorded robot's runs again in the simulator, under any effects: from the recorded ticks (each wheel's shaft
-/// turns as the encoder says, seen through the encoder's faults backwards) or from the recorded commands.
+/// Drives a recorded robot's runs again in the simulator, under any effects: from the recorded ticks (each wheel's
+/// shaft turns as the encoder says, seen through the encoder's faults backwards) or from the recorded commands.
 class Replay {
  public:
   /// `scenario` describes the robot and floor as the experimenter believes them; its course and runs are not used. The
@@ -22,11 +22,12 @@ class Replay {
   const Scenario& scenario() const { return scenario_; }
   const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }
 
-  /// Absolute poses at the times of the run's truth. The start is where odometry lies best on the first part of the track. Throws RunError, InputError.
+  /// Absolute poses at the times of the run's truth. The start is where odometry lies best on the first part of the
+  /// track. Throws RunError, InputError.
   std::vector<Pose2> poses(std::size_t run, const std::vector<Effect>& effects) const;
 
-  /// What the encoders would count, as angles in radians (left, right) and without rounding, at the times of the encoder
-  /// samples when the recorded commands are driven open loop. Lost counts are lost in the mean.
+  /// What the encoders would count, as angles in radians (left, right) and without rounding, at the times of the
+  /// encoder samples when the recorded commands are driven open loop. Lost counts are lost in the mean.
   std::vector<std::array<double, 2>> counts(std::size_t run, const std::vector<Effect>& effects) const;
 
   /// Logarithms of what effects change in how the robot is driven and read: linear acceleration, angular acceleration,

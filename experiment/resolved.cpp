@@ -90,7 +90,8 @@ std::string runs_block(const RunChoice& r) {
 std::string robot_block(const RobotChoice& r) {
   return fmt::format(
       "robot:\n  urdf: {}\n  left_joint: {}\n  right_joint: {}\n  caster_friction: {}\n  torque_limit_nm: {}\n",
-      yaml_string(r.urdf), yaml_string(r.joints.left), yaml_string(r.joints.right), r.caster_friction, r.torque_limit_nm);
+      yaml_string(r.urdf), yaml_string(r.joints.left), yaml_string(r.joints.right), r.caster_friction,
+      r.torque_limit_nm);
 }
 
 }  // namespace

@@ -86,7 +86,8 @@ void write_run_folder(const ExperimentResult& result, const std::string& page, c
   write_folder(folder, force, [&](const fs::path& into) {
     write_recording(result.recording, into);
     write_text_file(into / "scenario.resolved.yaml", resolved_yaml(result.scenario));
-    write_text_file(into / "provenance.json", provenance_json(result.scenario.file, result.scenario.seed).dump(2) + "\n");
+    write_text_file(into / "provenance.json",
+                    provenance_json(result.scenario.file, result.scenario.seed).dump(2) + "\n");
     write_text_file(into / "summary.json", summary_json(result).dump(2) + "\n");
     write_text_file(into / "report.html", page);
     if (result.passes.empty()) return;

@@ -110,7 +110,8 @@ std::vector<std::int64_t> all_of(const Sweep& sweep, const Shard& shard) {
   return numbers;
 }
 
-int drive_missing(const Sweep& sweep, Store& store, const SweepOptions& options, const std::vector<std::int64_t>& open) {
+int drive_missing(const Sweep& sweep, Store& store, const SweepOptions& options,
+                  const std::vector<std::int64_t>& open) {
   const StopRequests listen;
   Claims claims(lock_file(store.file()));
   const auto total = std::int64_t(all_of(sweep, options.shard).size());

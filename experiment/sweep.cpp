@@ -57,7 +57,8 @@ Scenario with_values(const Sweep& sweep, const std::vector<Axis>& axes, const st
     try {
       load_scenario_robot(with_values(sweep, {sweep.axes[i]}, {point.values[i]}));
     } catch (const InputError& e) {
-      throw InputError(sweep.axes[i].mark, fmt::format("{}: value {}: {}", sweep.axes[i].key, point.values[i].yaml, e.what()));
+      throw InputError(sweep.axes[i].mark,
+                       fmt::format("{}: value {}: {}", sweep.axes[i].key, point.values[i].yaml, e.what()));
     }
   }
   throw InputError(sweep.axes.front().mark,
@@ -109,7 +110,8 @@ void check_points(const Sweep& sweep, const std::vector<std::int64_t>& numbers) 
     const SweepPoint point = sweep_point(sweep, number);
     try {
       const Scenario s = scenario_of(sweep, point);
-      if (robots.insert(s.robot.urdf + '\n' + s.robot.joints.left + '\n' + s.robot.joints.right).second) load_scenario_robot(s);
+      if (robots.insert(s.robot.urdf + '\n' + s.robot.joints.left + '\n' + s.robot.joints.right).second)
+        load_scenario_robot(s);
     } catch (const InputError& e) {
       blame(sweep, point, e);
     }

@@ -41,11 +41,13 @@ struct Sweep {
   std::int64_t points = 0;
 
   YAML::Node scenario;              ///< the scenario with `set`, before the axes
-  std::shared_ptr<std::mutex> mutex = std::make_shared<std::mutex>();  ///< of `scenario`: yaml-cpp's nodes are not thread-safe
+  std::shared_ptr<std::mutex> mutex =
+      std::make_shared<std::mutex>();  ///< of `scenario`: yaml-cpp's nodes are not thread-safe
 };
 
-/// Reads a sweep file. `settings` (`course.side_m=2`) change its scenario, `axes` (`course.side_m=[2, 4]`) replace or add
-/// axes. Throws InputError with file, line, key, value and bound. Whether the scenario takes the values is for check_points.
+/// Reads a sweep file. `settings` (`course.side_m=2`) change its scenario, `axes` (`course.side_m=[2, 4]`) replace or
+/// add axes. Throws InputError with file, line, key, value and bound. Whether the scenario takes the values is for
+/// check_points.
 Sweep read_sweep(const std::string& file, const std::vector<std::string>& settings = {},
                  const std::vector<std::string>& axes = {});
 

@@ -15,9 +15,10 @@ namespace {
 constexpr std::int64_t kPageNumbers = 400000;
 
 // Beginnings of the figures that stay where the page would grow too large.
-constexpr const char* kMain[] = {"umbmark.e_max_syst_m", "umbmark.cw.r_cg_m", "umbmark.ccw.r_cg_m", "injected.",
-                                 "calibration.endpoint.e_", "calibration.heading.e_", "recovery.e_", "recovery.improvement",
-                                 "extended.mean_abs", "extended.per_bump"};
+constexpr const char* kMain[] = {
+    "umbmark.e_max_syst_m",    "umbmark.cw.r_cg_m",      "umbmark.ccw.r_cg_m", "injected.",
+    "calibration.endpoint.e_", "calibration.heading.e_", "recovery.e_",        "recovery.improvement",
+    "extended.mean_abs",       "extended.per_bump"};
 
 // Recovered against injected has a picture of its own, whether they vary or not.
 constexpr const char* kAlways[] = {"injected.", "calibration.endpoint.e_", "calibration.heading.e_"};
@@ -101,7 +102,8 @@ Json rows_json(Store& store, const std::vector<std::string>& columns, std::int64
 Json sweep_report_json(const Sweep& sweep, Store& store, const SweepResult& result) {
   std::vector<std::string> figures = varied_figures(store);
   const std::int64_t points = result.done + std::int64_t(result.failed.size());
-  if (points * std::int64_t(figures.size()) > kPageNumbers) std::erase_if(figures, [](const auto& f) { return !begins_with_any(f, kMain); });
+  if (points * std::int64_t(figures.size()) > kPageNumbers)
+    std::erase_if(figures, [](const auto& f) { return !begins_with_any(f, kMain); });
   const std::int64_t stride = 1 + points * std::int64_t(figures.size() + sweep.axes.size()) / kPageNumbers;
   std::vector<std::string> columns;
   for (const Axis& axis : sweep.axes) columns.push_back(axis.key);
@@ -113,7 +115,8 @@ Json sweep_report_json(const Sweep& sweep, Store& store, const SweepResult& resu
   json["design"] = name(sweep.design);
   json["axes"] = axes_json(sweep);
   json["figures"] = figures;
-  json["view"] = {{"x", sweep.view.x}, {"y", sweep.view.y}, {"figure", sweep.view.figure}, {"log", sweep.view.logarithmic}};
+  json["view"] = {
+      {"x", sweep.view.x}, {"y", sweep.view.y}, {"figure", sweep.view.figure}, {"log", sweep.view.logarithmic}};
   json["stride"] = stride;
   json["rows"] = rows_json(store, columns, stride, result);
   return json;

@@ -74,7 +74,8 @@ void check_jumps(const std::string& directory, const RecordedRun& run, const Rec
     const std::size_t worst = std::size_t(std::max_element(speeds.begin(), speeds.end()) - speeds.begin());
     if (speeds[worst] > 8 * usual + 2.0) {
       const auto jump = run.encoders[worst + 1].*ticks - run.encoders[worst].*ticks;
-      const bool wrap = std::abs(std::abs(double(jump)) - 65536) < 3000 || std::abs(std::abs(double(jump)) - 4294967296.0) < 1e6;
+      const bool wrap =
+          std::abs(std::abs(double(jump)) - 65536) < 3000 || std::abs(std::abs(double(jump)) - 4294967296.0) < 1e6;
       refuse(directory, run,
              fmt::format("{} ticks jump by {} between {} s and {} s ({:.1f} m/s; usually below {:.2f} m/s). {}",
                          w == 0 ? "left" : "right", jump, run.encoders[worst].time_s, run.encoders[worst + 1].time_s,
@@ -106,8 +107,9 @@ void check_gaps(const std::string& directory, const RecordedRun& run) {
   for (std::size_t i = 1; i < run.truth.size(); ++i) {
     const bool alone = std::abs(turned(i - 1)) < 1.5 && std::abs(turned(i + 1)) < 1.5;
     if (std::abs(turned(i)) > 3.5 && steps[i - 1] < 1 && alone) {
-      refuse(directory, run, fmt::format("theta_rad jumps by {:.2f} at {} s: unwrap it, or give it in radians.", turned(i),
-                                         run.truth[i].time_s));
+      refuse(directory, run,
+             fmt::format("theta_rad jumps by {:.2f} at {} s: unwrap it, or give it in radians.", turned(i),
+                         run.truth[i].time_s));
     }
   }
 }
@@ -120,11 +122,13 @@ void check_scale(const std::string& directory, const RecordedRun& run, const Rec
   if (t.counted_m < 0.02 && t.counted_turn_rad < 0.1) {
     const double scale = robot.ticks_per_revolution / (2 * M_PI);
     refuse(directory, run,
-           fmt::format("the tracker moved {:.3g} m, the encoders hardly at all ({:.3g} m). Counts expected, radians (times "
-                       "{:.4g}) or revolutions (times {:.6g}) given?",
-                       t.tracked_m, t.counted_m, scale, robot.ticks_per_revolution));
+           fmt::format(
+               "the tracker moved {:.3g} m, the encoders hardly at all ({:.3g} m). Counts expected, radians (times "
+               "{:.4g}) or revolutions (times {:.6g}) given?",
+               t.tracked_m, t.counted_m, scale, robot.ticks_per_revolution));
   }
-  if (t.tracked_m < 0.01 && t.tracked_turn_rad < 0.1) refuse(directory, run, "no motion in the truth, though the wheels turn.");
+  if (t.tracked_m < 0.01 && t.tracked_turn_rad < 0.1)
+    refuse(directory, run, "no motion in the truth, though the wheels turn.");
   // Path length is taken where there is some; both sides scale alike.
   const double ratio = t.tracked_m / std::max(t.counted_m, 1e-12);
   if (t.counted_m > 0.3 || t.tracked_m > 0.3) {
@@ -132,17 +136,18 @@ void check_scale(const std::string& directory, const RecordedRun& run, const Rec
     const struct {
       double factor;
       std::string meaning;
-    } suspects[] = {{1000, "the truth is in millimetres (divide x and y by 1000), or wheel_radius_m is 1000 times too small"},
-                    {100, "the truth is in centimetres (divide by 100), or wheel_radius_m is 100 times too small"},
-                    {10, "a scale is wrong by 10: check wheel_radius_m, wheel diameter in its place, or ticks_per_revolution"},
-                    {0.001, "wheel_radius_m is in millimetres (divide by 1000), or the truth in kilometres"},
-                    {0.01, "wheel_radius_m is in centimetres (divide by 100)"},
-                    {0.1, "a scale is wrong by 10: check wheel_radius_m and ticks_per_revolution"},
-                    {ticks / (2 * M_PI), "the encoders' columns hold radians, not counts: multiply by ticks_per_revolution / 2 pi"},
-                    {0.5, "wheel_radius_m may be the diameter, or ticks_per_revolution half of what it is (quadrature)"},
-                    {0.25, "ticks_per_revolution is a quarter of what it is (quadrature: 4 counts a line)"},
-                    {4, "ticks_per_revolution is four times what it is (quadrature)"},
-                    {2, "wheel_radius_m may be half of what it is, or ticks_per_revolution twice"}};
+    } suspects[] = {
+        {1000, "the truth is in millimetres (divide x and y by 1000), or wheel_radius_m is 1000 times too small"},
+        {100, "the truth is in centimetres (divide by 100), or wheel_radius_m is 100 times too small"},
+        {10, "a scale is wrong by 10: check wheel_radius_m, wheel diameter in its place, or ticks_per_revolution"},
+        {0.001, "wheel_radius_m is in millimetres (divide by 1000), or the truth in kilometres"},
+        {0.01, "wheel_radius_m is in centimetres (divide by 100)"},
+        {0.1, "a scale is wrong by 10: check wheel_radius_m and ticks_per_revolution"},
+        {ticks / (2 * M_PI), "the encoders' columns hold radians, not counts: multiply by ticks_per_revolution / 2 pi"},
+        {0.5, "wheel_radius_m may be the diameter, or ticks_per_revolution half of what it is (quadrature)"},
+        {0.25, "ticks_per_revolution is a quarter of what it is (quadrature: 4 counts a line)"},
+        {4, "ticks_per_revolution is four times what it is (quadrature)"},
+        {2, "wheel_radius_m may be half of what it is, or ticks_per_revolution twice"}};
     if (ratio < 0.67 || ratio > 1.5) {
       std::string guess = "check wheel_radius_m, ticks_per_revolution and the units of the truth";
       double best = std::log(kFactor);
@@ -152,8 +157,9 @@ void check_scale(const std::string& directory, const RecordedRun& run, const Rec
           guess = s.meaning;
         }
       }
-      refuse(directory, run, fmt::format("the truth's way is {:.4g} times the wheels' ({:.4g} m against {:.4g} m): {}.", ratio,
-                                         t.tracked_m, t.counted_m, guess));
+      refuse(directory, run,
+             fmt::format("the truth's way is {:.4g} times the wheels' ({:.4g} m against {:.4g} m): {}.", ratio,
+                         t.tracked_m, t.counted_m, guess));
     }
   }
   if (t.tracked_turn_rad > 1 || t.counted_turn_rad > 1) {
@@ -161,16 +167,20 @@ void check_scale(const std::string& directory, const RecordedRun& run, const Rec
     if (near(turns, 180 / M_PI)) refuse(directory, run, "theta_rad is in degrees: multiply by pi / 180.");
     if (near(turns, M_PI / 180)) refuse(directory, run, "theta_rad is too small by 180 / pi.");
     if (turns > 1.6 || turns < 0.6) {
-      refuse(directory, run, fmt::format("the truth turns {:.3g} times as much as the wheels: check wheelbase_m and theta_rad.", turns));
+      refuse(
+          directory, run,
+          fmt::format("the truth turns {:.3g} times as much as the wheels: check wheelbase_m and theta_rad.", turns));
     }
     // Against each other: the signs. Negating both wheels turns both products around, exchanging them only the turns.
     if (t.turn_product < 0 && t.straight_product >= 0) {
-      refuse(directory, run, "turns have the wrong sign: left_ticks and right_ticks are swapped; exchange the columns (or "
-                             "theta_rad grows clockwise).");
+      refuse(directory, run,
+             "turns have the wrong sign: left_ticks and right_ticks are swapped; exchange the columns (or "
+             "theta_rad grows clockwise).");
     }
     if (t.turn_product > 0 && t.straight_product < 0) {
-      refuse(directory, run, "wheels run backwards though the turns are right: left and right are swapped and both count "
-                             "backwards; exchange the columns and negate them.");
+      refuse(directory, run,
+             "wheels run backwards though the turns are right: left and right are swapped and both count "
+             "backwards; exchange the columns and negate them.");
     }
   }
   if (t.straight_product < 0) {
@@ -188,7 +198,8 @@ Recording with_moments_between(Recording recording) {
     const TruthSample first = run.truth.front();
     const TruthSample last = run.truth.back();
     run.truth = {first};
-    for (double t = first.time_s + kStep_s; t < last.time_s - kStep_s / 2; t += kStep_s) run.truth.push_back({t, first.X_WB});
+    for (double t = first.time_s + kStep_s; t < last.time_s - kStep_s / 2; t += kStep_s)
+      run.truth.push_back({t, first.X_WB});
     run.truth.push_back(last);
   }
   return recording;
@@ -198,7 +209,8 @@ std::vector<std::string> check_recording(const Recording& recording, const std::
   for (const RecordedRun& run : recording.runs) {
     if (run.encoders.size() < 10) refuse(directory, run, "fewer than 10 encoder samples.");
     if (run.truth.size() < 2) refuse(directory, run, "the truth has fewer than two poses.");
-    if (run.truth.back().time_s > run.encoders.back().time_s + 1 || run.truth.front().time_s < run.encoders.front().time_s - 1) {
+    if (run.truth.back().time_s > run.encoders.back().time_s + 1 ||
+        run.truth.front().time_s < run.encoders.front().time_s - 1) {
       refuse(directory, run, "truth and encoders do not cover the same time.");
     }
     check_jumps(directory, run, recording.robot);

@@ -4,7 +4,10 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
+#include <fmt/format.h>
 
+#include "gap/check.h"
+#include "gap/nuisances.h"
 #include "recording/encoder_clock.h"
 
 namespace umbsim::gap {
@@ -89,7 +92,8 @@ ClocksAligned with_clocks_aligned(Recording recording) {
   constexpr double kStandsOut = 4;  // standard deviations; samples of a tracker are not independent
   for (RecordedRun& run : recording.runs) {
     const ClockFit fit = fit_clock(run, recording.robot);
-    const bool clear = std::abs(fit.offset_s) > kStandsOut * fit.offset_sd_s || std::abs(fit.rate) > kStandsOut * fit.rate_sd;
+    const bool clear =
+        std::abs(fit.offset_s) > kStandsOut * fit.offset_sd_s || std::abs(fit.rate) > kStandsOut * fit.rate_sd;
     if (!clear || std::abs(fit.offset_s) > kMost_s || std::abs(fit.rate) > kMostRate) continue;
     std::vector<TruthSample> kept;
     for (TruthSample t : run.truth) {
@@ -102,6 +106,19 @@ ClocksAligned with_clocks_aligned(Recording recording) {
   }
   result.recording = std::move(recording);
   return result;
+}
+
+Recording followed_through(const Recording& given, std::vector<std::string>& limits) {
+  Recording recording = with_moments_between(given);
+  if (!tracker_is_free(recording) || recording.truth_kind != "track") return recording;
+  ClocksAligned aligned = with_clocks_aligned(std::move(recording));
+  if (aligned.most_offset_s > 0) {
+    limits.push_back(
+        fmt::format("the tracker's clock was moved by up to {:.0f} ms and {:.2f} % to agree with the encoders': "
+                    "latency and clock cannot be told apart",
+                    1000 * aligned.most_offset_s, 100 * aligned.most_rate));
+  }
+  return std::move(aligned.recording);
 }
 
 }  // namespace umbsim::gap

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "recording/recording.h"
 
 namespace umbsim::gap {
@@ -12,8 +15,8 @@ struct ClockFit {
   double rate_sd = 0;
 };
 
-/// From one run: where the encoders say the robot turns, the truth must turn. Robust least squares of the truth's heading
-/// on the odometry's at the shifted time, a constant, a scale of turns and a drift with the way.
+/// From one run: where the encoders say the robot turns, the truth must turn. Robust least squares of the truth's
+/// heading on the odometry's at the shifted time, a constant, a scale of turns and a drift with the way.
 ClockFit fit_clock(const RecordedRun& run, const RecordedRobot& robot);
 
 struct ClocksAligned {
@@ -22,8 +25,12 @@ struct ClocksAligned {
   double most_rate = 0;
 };
 
-/// The recording with the truth's times moved by each run's fit, where that stands out from its own uncertainty; samples
-/// that then lie outside the encoders' time are left out.
+/// The recording with the truth's times moved by each run's fit, where that stands out from its own uncertainty;
+/// samples that then lie outside the encoders' time are left out.
 ClocksAligned with_clocks_aligned(Recording recording);
+
+/// What a diagnosis or a plan follows through: with moments between end points, and with a real tracker's clock set to the
+/// encoders', which `limits` then says.
+Recording followed_through(const Recording& given, std::vector<std::string>& limits);
 
 }  // namespace umbsim::gap

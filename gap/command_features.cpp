@@ -12,8 +12,8 @@ struct Wheel {
   double lag_s = 0;
 };
 
-// Gain from the total rotation. Lag: least squares of (commanded - counted angle) on (speed, angle, way, 1); the speed's
-// coefficient is how far counts are behind.
+// Gain from the total rotation. Lag: least squares of (commanded - counted angle) on (speed, angle, way, 1); the
+// speed's coefficient is how far counts are behind.
 Wheel wheel_features(const std::vector<EncoderSample>& s, double EncoderSample::*command,
                      const std::vector<std::array<double, 2>>& counts, std::size_t w) {
   Eigen::Matrix4d A = Eigen::Matrix4d::Zero();

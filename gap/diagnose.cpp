@@ -62,8 +62,8 @@ std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, con
   return kept;
 }
 
-// What the tracks stray beyond noise and nuisances, as log evidence for something else, as long as the noise is known from
-// repeated runs.
+// What the tracks stray beyond noise and nuisances, as log evidence for something else, as long as the noise is known
+// from repeated runs.
 double lack_of_fit(const Model& model, const Fit& fit, const Thresholds& t) {
   if (!model.replicated()) return 0;
   return std::max(0.0, fit.misfit - (1 + t.noise_error) * model.rows()) / 2;
@@ -138,7 +138,8 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   say("what no effect explains");
   const double generic_none = generic_gain(model, none);
   const double lack_none = lack_of_fit(model, none, t);
-  const double gap = std::max(d.causes.front().name == "none" ? 0 : d.causes.front().score, std::max(generic_none, lack_none));
+  const double gap =
+      std::max(d.causes.front().name == "none" ? 0 : d.causes.front().score, std::max(generic_none, lack_none));
   d.detected = gap > t.detect;
   d.p_value = tail(2 * std::max(0.0, gap), 2);
   d.noise = model.noise();
@@ -146,7 +147,8 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   if (!d.detected) {
     const auto at = std::find_if(d.causes.begin(), d.causes.end(), [](const Cause& c) { return c.name == "none"; });
     std::rotate(d.causes.begin(), at, at + 1);
-    d.causes.front().score = std::max(d.causes.front().score, d.causes.size() > 1 ? d.causes[1].score + t.effect_cost : 0);
+    d.causes.front().score =
+        std::max(d.causes.front().score, d.causes.size() > 1 ? d.causes[1].score + t.effect_cost : 0);
   }
   const Fit best = d.causes.front().fit;
   const double lack = lack_of_fit(model, best, t);
@@ -166,14 +168,16 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     cause.score = unknown ? d.causes.front().score + 0.5 * leftover : generic_none - 2 * t.effect_cost;
     if (!unknown) cause.score = std::min(cause.score, d.causes.front().score - t.detect);
     d.causes.push_back(std::move(cause));
-    std::stable_sort(d.causes.begin(), d.causes.end(), [](const Cause& a, const Cause& b) { return a.score > b.score; });
+    std::stable_sort(d.causes.begin(), d.causes.end(),
+                     [](const Cause& a, const Cause& b) { return a.score > b.score; });
     if (d.unexplained) d.left_over = describe_left_over(model, best);
   }
   give_probabilities(d.causes);
   const double before_m2 = mean_square_error_m2(model, none.predicted.tracks);
   d.before_mm = 1000 * std::sqrt(before_m2);
   for (Cause& c : d.causes) {
-    if (!c.fit.families.empty()) c.squared_error_drop = 1 - mean_square_error_m2(model, c.fit.predicted.tracks) / before_m2;
+    if (!c.fit.families.empty())
+      c.squared_error_drop = 1 - mean_square_error_m2(model, c.fit.predicted.tracks) / before_m2;
   }
   d.overdispersion = std::max(1.0, best.residual / model.rows());
   d.explainable_fraction = explained / std::max(1e-9, explained + std::max(0.0, leftover));

@@ -124,7 +124,8 @@ Json diagnosis_json(const Diagnosis& d) {
                        {"before_deg", c.before_deg}, {"after_deg", c.after_deg},
                        {"explainable_fraction", number(d.explainable_fraction)}};
   } else {
-    json["closure"] = {{"held_out_fraction", nullptr}, {"note", d.detected ? "nothing to hold out" : "no gap to close"}};
+    json["closure"] = {{"held_out_fraction", nullptr},
+                       {"note", d.detected ? "nothing to hold out" : "no gap to close"}};
   }
   json["limits"] = d.limits;
   return json;

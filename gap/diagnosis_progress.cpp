@@ -8,8 +8,8 @@ namespace {
 constexpr double kBetweenDraws_s = 0.2;
 constexpr double kEnoughToTell = 20;  // simulations, before their speed is known
 
-/// Simulations of each run that a stage usually begins with still to come, from the recordings of docs/gap.md: an effect
-/// that is found takes about 260, of which a stage that does not come does not count.
+/// Simulations of each run that a stage usually begins with still to come, from the recordings of docs/gap.md: an
+/// effect that is found takes about 260, of which a stage that does not come does not count.
 struct Usual {
   const char* stage;
   double left_per_run;
@@ -57,7 +57,8 @@ void DiagnosisProgress::draw() {
   const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   if (drawn_s_ >= 0 && elapsed_s < drawn_s_ + kBetweenDraws_s) return;
   drawn_s_ = elapsed_s;
-  show_(elapsed_s, stage_, done_ < kEnoughToTell ? -1 : expected_left() * elapsed_s / done_);
+  const bool known = done_ >= kEnoughToTell && usually_left(stage_) > 0;
+  show_(elapsed_s, stage_, known ? expected_left() * elapsed_s / done_ : -1);
 }
 
 Simulator DiagnosisProgress::counted(Simulator simulator) {

@@ -12,8 +12,8 @@ namespace umbsim::gap {
 /// How far a diagnosis has come, by counting simulations against how many the stages usually take.
 class DiagnosisProgress {
  public:
-  /// `show`: called with the seconds so far, the stage and the seconds left, at a new stage and a few times a second; negative:
-  /// not known yet. `runs`: of the recording.
+  /// `show`: called with the seconds so far, the stage and the seconds left, at a new stage and a few times a second;
+  /// negative: not known yet. `runs`: of the recording.
   using Show = std::function<void(double elapsed_s, const std::string& stage, double left_s)>;
   DiagnosisProgress(std::size_t runs, Show show);
 

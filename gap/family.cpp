@@ -3,71 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gap/family_shapes.h"
+
 namespace umbsim::gap {
 namespace {
-
-std::size_t index_of(const EffectInfo& info, const std::string& parameter) {
-  for (std::size_t i = 0; i < info.parameters.size(); ++i) {
-    if (info.parameters[i].name == parameter) return i;
-  }
-  return 0;
-}
-
-// A family whose free numbers are parameters of the effect as they are.
-Family direct(const std::string& effect, const std::string& variant, std::vector<FreeParameter> parameters,
-              std::vector<std::pair<std::string, double>> fixed = {}) {
-  Family family{effect, variant, parameters, {}, {}, true, 0};
-  const EffectInfo& info = find_effect(effect);
-  EffectValues base = neutral_effect(info).values;
-  for (const auto& [name, value] : fixed) base.numbers[index_of(info, name)] = value;
-  std::vector<std::size_t> where;
-  for (FreeParameter& p : family.parameters) {
-    where.push_back(index_of(info, p.name));
-    const Bounds& bounds = info.parameters[where.back()].bounds;
-    p.min = std::max(p.min, bounds.min);
-    p.max = std::min(p.max, bounds.max);
-  }
-  family.values = [base, where](const Eigen::VectorXd& p) {
-    EffectValues values = base;
-    for (std::size_t i = 0; i < where.size(); ++i) values.numbers[where[i]] = p[Eigen::Index(i)];
-    return values;
-  };
-  return family;
-}
-
-// A size and a direction, fitted as two components.
-Family vector_family(const std::string& effect, const std::string& size, const std::string& angle, double step,
-                     double prior_sd, double limit) {
-  const EffectInfo& info = find_effect(effect);
-  const EffectValues base = neutral_effect(info).values;
-  const std::size_t i = index_of(info, size);
-  const std::size_t j = index_of(info, angle);
-  Family family{effect, size,
-                {{size + " cos", 0, step, prior_sd, -limit, limit}, {size + " sin", 0, step, prior_sd, -limit, limit}},
-                {}, {}, true, 0};
-  family.values = [base, i, j](const Eigen::VectorXd& p) {
-    EffectValues values = base;
-    values.numbers[i] = std::hypot(p[0], p[1]);
-    values.numbers[j] = values.numbers[i] > 0 ? std::atan2(p[1], p[0]) : 0;
-    return values;
-  };
-  return family;
-}
-
-// A number that counts in proportion: fitted as the logarithm of its ratio to `unit`.
-Family logarithmic(const std::string& effect, const std::string& parameter, double unit, double prior_sd, double min,
-                   double max) {
-  const EffectInfo& info = find_effect(effect);
-  const EffectValues base = neutral_effect(info).values;
-  const std::size_t i = index_of(info, parameter);
-  Family family{effect, parameter, {{"log " + parameter, 0, 0.05, prior_sd, min, max}}, {}, {}, true, 0};
-  family.values = [base, i, unit](const Eigen::VectorXd& p) {
-    EffectValues values = base;
-    values.numbers[i] = unit * std::exp(p[0]);
-    return values;
-  };
-  return family;
-}
 
 constexpr double kFree = 1e9;
 
@@ -76,16 +15,6 @@ FreeParameter signed_one(const char* name, double step, double prior_sd) {
 }
 
 FreeParameter positive(const char* name, double step, double prior_sd) { return {name, 0, step, prior_sd, 0, kFree}; }
-
-// Logarithms of how many places on the path, and moments of the runs, were tried.
-constexpr double kPlaces = 7;
-constexpr double kMoments = 9;
-constexpr double kPlacesApart = 4;  // places so far apart that none is in reach of another's fit
-
-Family searched(Family family, double cost) {
-  family.search_cost = cost;
-  return family;
-}
 
 Family from_start(Family family, double start) {
   family.parameters.front().start = start;
@@ -177,7 +106,8 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution)
       direct("wheelbase", "relative", {signed_one("relative", 5e-4, 0.015)}),
       direct("wheel_misalignment", "right", {signed_one("right_toe_rad", 2e-3, 0.008)}),
       direct("wheel_misalignment", "left", {signed_one("left_toe_rad", 2e-3, 0.008)}),
-      direct("wheel_misalignment", "both", {signed_one("left_toe_rad", 2e-3, 0.008), signed_one("right_toe_rad", 2e-3, 0.008)}),
+      direct("wheel_misalignment", "both",
+             {signed_one("left_toe_rad", 2e-3, 0.008), signed_one("right_toe_rad", 2e-3, 0.008)}),
       on_soft_tyres(direct("wheel_misalignment", "right", {signed_one("right_toe_rad", 2e-3, 0.008)})),
       on_soft_tyres(direct("wheel_misalignment", "left", {signed_one("left_toe_rad", 2e-3, 0.008)})),
       vector_family("wheel_eccentricity", "right_m", "right_phase_rad", 5e-4, 1e-3, 0.02),
@@ -185,7 +115,8 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution)
       both_eccentric(),
       direct("wear", "right", {signed_one("right_relative_per_run", 2e-5, 1e-3)}),
       direct("wear", "left", {signed_one("left_relative_per_run", 2e-5, 1e-3)}),
-      direct("wear", "both", {signed_one("left_relative_per_run", 2e-5, 1e-3), signed_one("right_relative_per_run", 2e-5, 1e-3)}),
+      direct("wear", "both",
+             {signed_one("left_relative_per_run", 2e-5, 1e-3), signed_one("right_relative_per_run", 2e-5, 1e-3)}),
       direct("backlash", "both", {positive("left_rad", 0.01, 0.03), positive("right_rad", 0.01, 0.03)}),
       direct("motor_response", "lag", {positive("lag_s", 0.05, 0.1)}),
       direct("motor_response", "gain", {signed_one("gain_asymmetry", 0.01, 0.05)}),
@@ -199,8 +130,9 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution)
       direct("contact_patch", "width", {positive("width_m", 0.01, 0.03)}),
       direct("tyre_creep", "along and across", {{"along", 0, 5e-3, 0.02, 0, 0.1}, {"across", 0, 5e-3, 0.02, 0, 0.1}}),
       from_start(direct("caster_swivel", "friction", {positive("friction_nm", 0.1, 0.5)}, {{"trail_m", 0.03}}), 0.3),
-      from_start(direct("caster_swivel", "askew",
-                        {{"initial_angle_rad", 0, 0.3, 2, -3.14, 3.14}}, {{"trail_m", 0.03}, {"friction_nm", 0.1}}), 1.5),
+      from_start(direct("caster_swivel", "askew", {{"initial_angle_rad", 0, 0.3, 2, -3.14, 3.14}},
+                        {{"trail_m", 0.03}, {"friction_nm", 0.1}}),
+                 1.5),
       direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.04)}),
       from_start(direct("slippery_floor", "friction", {{"friction", 0, 0.005, 0.2, 0.01, 0.8}}), 0.06),
       vector_family("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5),
@@ -211,83 +143,6 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution)
     f.variant_cost = std::log(double(std::count_if(all.begin(), all.end(), same)));
   }
   return all;
-}
-
-Family bump_family(double x_m, double y_m, double heading_rad) {
-  const EffectInfo& info = find_effect("bump");
-  const EffectValues base = neutral_effect(info).values;
-  const std::size_t h = index_of(info, "height_m");
-  const std::size_t x = index_of(info, "x_m");
-  const std::size_t y = index_of(info, "y_m");
-  const std::size_t d = index_of(info, "direction_rad");
-  Family family{"bump", "height and place",
-                {{"height_m", 0.005, 5e-4, 0.008, 5e-4, 0.02}, {"further along m", 0, 0.004, 0.03, -0.1, 0.1}},
-                {}, {}, false, kPlaces};
-  family.values = [=](const Eigen::VectorXd& p) {
-    EffectValues values = base;
-    values.numbers[h] = p[0];
-    values.numbers[x] = x_m + p[1] * std::cos(heading_rad);
-    values.numbers[y] = y_m + p[1] * std::sin(heading_rad);
-    values.numbers[d] = std::remainder(heading_rad + M_PI / 2, M_PI);
-    return values;
-  };
-  return family;
-}
-
-namespace {
-
-// A coordinate of the place, seen from where the search begins.
-FreeParameter coordinate(const char* name) { return {name, 0, 0.005, 0.15, -0.6, 0.6}; }
-
-// The last two numbers are a place.
-Family placed(Family family, double x_m, double y_m) {
-  const Eigen::Index own = Eigen::Index(family.parameters.size()) - 2;
-  const auto values = family.values;
-  family.values = [values, own, x_m, y_m](const Eigen::VectorXd& p) {
-    Eigen::VectorXd at = p;
-    at[own] += x_m;
-    at[own + 1] += y_m;
-    return values(at);
-  };
-  family.from_zero = false;
-  return searched(std::move(family), kPlacesApart);
-}
-
-}  // namespace
-
-Family lift_family(double x_m, double y_m) {
-  return placed(direct("wheel_lift", "length and place",
-                       {{"length_m", 0.06, 0.005, 0.1, 0.002, 0.4}, coordinate("x_m"), coordinate("y_m")}),
-                x_m, y_m);
-}
-
-Family patch_family(double x_m, double y_m) {
-  return placed(direct("slippery_patch", "friction, radius and place",
-                       {{"friction", 0.03, 0.002, 0.2, 0.01, 0.8},
-                        {"radius_m", 0.3, 0.02, 0.4, 0.03, 1.5},
-                        coordinate("x_m"),
-                        coordinate("y_m")}),
-                x_m, y_m);
-}
-
-Family push_family(const std::string& run, int leg, double seconds_into_leg) {
-  const EffectInfo& info = find_effect("push");
-  const EffectValues base = neutral_effect(info).values;
-  const std::size_t l = index_of(info, "leg");
-  const std::size_t t = index_of(info, "seconds_into_leg");
-  const std::size_t i = index_of(info, "impulse_newton_seconds");
-  Family family{"push", run,
-                {{"impulse_newton_seconds", 30, 1, 60, -1000, 1000}, {"later s", 0, 0.02, 0.2, -0.6, 0.6}},
-                {}, {}, false, kMoments};
-  family.values = [=](const Eigen::VectorXd& p) {
-    EffectValues values = base;
-    values.run = run;
-    values.numbers[l] = leg;
-    values.numbers[t] = std::max(0.0, seconds_into_leg + p[1]);
-    values.numbers[i] = p[0];
-    return values;
-  };
-  return family;
 }
 
 }  // namespace umbsim::gap

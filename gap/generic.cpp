@@ -54,7 +54,8 @@ Raw raw_columns(const Model& model, std::size_t r) {
       before[w] = angle[w];
     }
   }
-  Raw raw{Eigen::MatrixXd(3 * Eigen::Index(n), kRipples), Eigen::MatrixXd(3 * Eigen::Index(n), Eigen::Index(parts.size())),
+  Raw raw{Eigen::MatrixXd(3 * Eigen::Index(n), kRipples),
+          Eigen::MatrixXd(3 * Eigen::Index(n), Eigen::Index(parts.size())),
           Eigen::VectorXd(Eigen::Index(parts.size()))};
   for (int i = 0; i < kRipples; ++i) raw.ripples.col(i) = filter.propagate(ripples[std::size_t(i)]);
   for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -7,9 +7,9 @@
 
 namespace umbsim::gap {
 
-/// How the robot was driven and read, against what the recording declares. Natural logarithms of ratios, 0 where it is as
-/// declared: linear acceleration, angular acceleration, speed of turns in place, sampling interval over the reading period,
-/// counts per revolution really resolved over those declared.
+/// How the robot was driven and read, against what the recording declares. Natural logarithms of ratios, 0 where it is
+/// as declared: linear acceleration, angular acceleration, speed of turns in place, sampling interval over the reading
+/// period, counts per revolution really resolved over those declared.
 using Habits = std::array<double, 5>;
 
 /// Standard deviations with which they are measured.

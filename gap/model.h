@@ -39,7 +39,7 @@ struct Fit {
   double log_evidence = 0;     ///< against no effect and the same nuisances
   double held_out = 0;         ///< sum of log predictive densities of each condition given the others, the same
   double residual = 0;         ///< squared whitened residual at the optimum
-  double misfit = 0;           ///< the same with what the nuisances cost: as many as there are rows, if the model is right
+  double misfit = 0;  ///< the same with what the nuisances cost: as many as there are rows, if the model is right
   std::vector<RunGram> grams;  ///< residual, nuisances, derivatives at p
   std::vector<Eigen::MatrixXd> columns;  ///< whitened derivatives at p, per run
   Eigen::VectorXd nuisance;    ///< posterior mean of the shared nuisances
@@ -53,7 +53,8 @@ struct Fit {
   std::string name() const;    ///< effects joined by "+", in alphabetical order
 };
 
-/// A recording seen through the simulator: residuals, nuisances, noise, and the evidence for any combination of effects.
+/// A recording seen through the simulator: residuals, nuisances, noise, and the evidence for any combination of
+/// effects.
 class Model {
  public:
   /// `known`: the noise, where it is not to be estimated from the runs.

@@ -154,7 +154,8 @@ NoiseEstimate estimate_noise(const NominalReplay& nominal) {
   start.heading_sd_rad = std::hypot(heading, rounding_m * M_SQRT2 / recording.robot.wheelbase_m);
   const std::vector<Difference> repeated = differences(nominal);
   if (!repeated.empty()) {
-    return {most_likely(start, [&](const NoiseModel& noise) { return replicate_log_likelihood(repeated, noise); }), true};
+    return {most_likely(start, [&](const NoiseModel& noise) { return replicate_log_likelihood(repeated, noise); }),
+            true};
   }
   return {recording.truth_kind == "track" ? from_what_is_left(nominal, start) : start, false};
 }

@@ -10,8 +10,9 @@ struct NoiseEstimate {
   bool replicated = false;  ///< from runs that were repeated; else from what the geometry leaves, or a usual value
 };
 
-/// The noise of a recording by maximum likelihood, large innovations capped: from the differences of repeated runs, which
-/// no effect touches; where no two runs can be subtracted, from what radii, wheelbase, tracker's frame and clock leave.
+/// The noise of a recording by maximum likelihood, large innovations capped: from the differences of repeated runs,
+/// which no effect touches; where no two runs can be subtracted, from what radii, wheelbase, tracker's frame and clock
+/// leave.
 NoiseEstimate estimate_noise(const NominalReplay& nominal);
 
 }  // namespace umbsim::gap

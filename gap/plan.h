@@ -50,11 +50,12 @@ struct Plan {
   Recommendation from_nothing;  ///< the shortest set of runs of the menu
   Recommendation further;       ///< runs of the menu on top of those that are asked about
   std::vector<std::string> no_family;  ///< effects that the diagnosis cannot name
-  std::vector<std::pair<std::string, double>> weak;  ///< effects that no plausible size brings to the severity, with theirs
+  std::vector<std::pair<std::string, double>>
+      weak;  ///< effects that no plausible size brings to the severity, with theirs
 };
 
-/// Predicts before any data what the first `given` runs of a model tell apart, and picks from the others. The poses of the
-/// model's recording do not matter; its noise does.
+/// Predicts before any data what the first `given` runs of a model tell apart, and picks from the others. The poses of
+/// the model's recording do not matter; its noise does.
 Plan plan(const Model& model, std::size_t given, double radius_scatter, const PlanOptions& options);
 
 }  // namespace umbsim::gap

@@ -20,8 +20,8 @@ struct PlannedFamily {
 };
 
 /// Every family of the catalogue's effects in `wanted`. Events stand for all of their kind: a cable lies under
-/// the right wheel half way along the first leg of the first run, what takes the grip away lies at that leg's end, a push
-/// comes half way along the second leg.
+/// the right wheel half way along the first leg of the first run, what takes the grip away lies at that leg's end, a
+/// push comes half way along the second leg.
 std::vector<PlannedFamily> planned_families(const Model& model, const std::set<std::string>& wanted);
 
 /// Effects of `wanted` that no family stands for: the diagnosis cannot name them.

@@ -32,8 +32,10 @@ std::vector<MenuRun> plan_menu(const RecordedPath& path, double dwell_s, double 
   };
   offer("plain", "plain square", [](MenuRun&) {});
   offer("rotated", "start turned by 90 deg", [](MenuRun& m) { m.run.start_heading_rad = M_PI / 2; });
-  offer("fast", fmt::format("fast ({:.2g} m/s)", kFast * speed), [&](MenuRun& m) { m.run.linear_speed_mps = kFast * speed; });
-  offer("slow", fmt::format("slow ({:.2g} m/s)", kSlow * speed), [&](MenuRun& m) { m.run.linear_speed_mps = kSlow * speed; });
+  offer("fast", fmt::format("fast ({:.2g} m/s)", kFast * speed),
+        [&](MenuRun& m) { m.run.linear_speed_mps = kFast * speed; });
+  offer("slow", fmt::format("slow ({:.2g} m/s)", kSlow * speed),
+        [&](MenuRun& m) { m.run.linear_speed_mps = kSlow * speed; });
   offer("loaded", fmt::format("payload {:.3g} kg", payload_kg), [&](MenuRun& m) { m.run.payload_kg = payload_kg; });
   offer("rolling", fmt::format("rolling turns of {:.2g} m radius", radius), [&](MenuRun& m) {
     m.run.turn = "arc";

@@ -15,9 +15,9 @@ struct MenuRun {
   double angular_speed_radps = 0;
 };
 
-/// Runs that a scenario can describe, each cw and ccw: plain, started a quarter turn round, fast, slow, with a payload, with
-/// rolling turns, with fast turns, with long standstills. Reverse driving and spins are not among them: no course has them.
-/// `path`: the plain square. `dwell_s`: of the plain square.
+/// Runs that a scenario can describe, each cw and ccw: plain, started a quarter turn round, fast, slow, with a payload,
+/// with rolling turns, with fast turns, with long standstills. Reverse driving and spins are not among them: no course
+/// has them. `path`: the plain square. `dwell_s`: of the plain square.
 std::vector<MenuRun> plan_menu(const RecordedPath& path, double dwell_s, double payload_kg);
 
 }  // namespace umbsim::gap

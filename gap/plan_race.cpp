@@ -198,8 +198,8 @@ Race race_among(const std::vector<FixedTruth>& truths, const Eigen::MatrixXd& in
   return result;
 }
 
-double expected_lead(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures, const FixedTruth& truth,
-                     const std::string& effect) {
+double expected_lead(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures,
+                     const FixedTruth& truth, const std::string& effect) {
   const Signature& s = signatures[truth.signature];
   const Eigen::VectorXd b = information.middleCols(s.first, s.count) * truth.numbers;
   const double whole = truth.numbers.dot(b.segment(s.first, s.count));
@@ -219,8 +219,8 @@ constexpr double kEnough = 0.25;   // share of a truth's squared size that anoth
 
 }  // namespace
 
-FixedTruth nearest(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures, const FixedTruth& truth,
-                   const std::string& effect) {
+FixedTruth nearest(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures,
+                   const FixedTruth& truth, const std::string& effect) {
   const Signature& s = signatures[truth.signature];
   const Eigen::VectorXd b = information.middleCols(s.first, s.count) * truth.numbers;
   const double whole = truth.numbers.dot(b.segment(s.first, s.count));

@@ -37,19 +37,19 @@ struct FixedTruth {
 Race race(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures, const Thresholds& thresholds,
           const RaceOptions& options);
 
-/// The same where it is known what is wrong: one row for each of the truths' effects, the others stay empty. Only the effects
-/// of the truths are in the race.
+/// The same where it is known what is wrong: one row for each of the truths' effects, the others stay empty. Only the
+/// effects of the truths are in the race.
 Race race_among(const std::vector<FixedTruth>& truths, const Eigen::MatrixXd& information,
                 const std::vector<Signature>& signatures, const Thresholds& thresholds, const RaceOptions& options);
 
-/// Half the squared distance, in standard deviations, of a truth from the nearest that any family of `effect` comes to it,
-/// which pays for its numbers: log evidence by which the truth is expected to be ahead.
-double expected_lead(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures, const FixedTruth& truth,
-                     const std::string& effect);
+/// Half the squared distance, in standard deviations, of a truth from the nearest that any family of `effect` comes to
+/// it, which pays for its numbers: log evidence by which the truth is expected to be ahead.
+double expected_lead(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures,
+                     const FixedTruth& truth, const std::string& effect);
 
-/// The numbers of the family of `effect` that comes nearest to a truth, at the truth's own distance from no effect; no numbers
-/// where no plausible size is as far.
-FixedTruth nearest(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures, const FixedTruth& truth,
-                   const std::string& effect);
+/// The numbers of the family of `effect` that comes nearest to a truth, at the truth's own distance from no effect; no
+/// numbers where no plausible size is as far.
+FixedTruth nearest(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures,
+                   const FixedTruth& truth, const std::string& effect);
 
 }  // namespace umbsim::gap

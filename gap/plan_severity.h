@@ -21,7 +21,8 @@ class NoiseFloors {
   /// `runs`: that count. `radius_scatter`: of each wheel from run to run.
   NoiseFloors(const Model& model, std::vector<std::size_t> runs, double radius_scatter);
 
-  /// One column of the rows: what `tracks` (of all runs; only those that count are read) differ from the nominal ones by.
+  /// One column of the rows: what `tracks` (of all runs; only those that count are read) differ from the nominal ones
+  /// by.
   SizeRows rows(const std::vector<std::vector<Pose2>>& tracks) const;
 
  private:

@@ -24,8 +24,8 @@ Eigen::VectorXd start_of(const Family& family) {
   return p;
 }
 
-// What changes a track at each of its samples, carried along the nominal one to first order. Two effects that move the robot
-// alike stay alike however large they are; differences of whole poses would tell them apart by their size.
+// What changes a track at each of its samples, carried along the nominal one to first order. Two effects that move the
+// robot alike stay alike however large they are; differences of whole poses would tell them apart by their size.
 Eigen::VectorXd first_order(const TrackFilter& filter, const std::vector<Pose2>& nominal,
                             const std::vector<Pose2>& changed) {
   const auto local = [](const Pose2& d) { return Eigen::Vector3d(d.x_m, d.y_m, d.theta_rad); };
@@ -74,7 +74,8 @@ class Workshop {
   void add(const PlannedFamily& planned, const Eigen::VectorXd& p, double unit, Signature& signature,
            std::vector<Eigen::MatrixXd>& columns) const {
     const Tracks changed = tracks(planned, p, model_.all_runs());
-    Predicted predicted = model_.predict({planned.in_first_run ? std::vector<Effect>{} : effects_of(planned.family, p)}).front();
+    Predicted predicted =
+        model_.predict({planned.in_first_run ? std::vector<Effect>{} : effects_of(planned.family, p)}).front();
     predicted.tracks = changed;
     const std::vector<Eigen::VectorXd> residual = model_.residuals(predicted);
     const SizeRows r = rows(planned, changed);

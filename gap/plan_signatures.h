@@ -22,8 +22,8 @@ struct Signature {
   double on_track(const Eigen::VectorXd& numbers) const;
   /// The same or, if larger, in what commands and counts show, in standard deviations.
   double severity(const Eigen::VectorXd& numbers) const;
-  /// The numbers at which this direction has the wanted severity on the tracks; where no plausible size has, half of the
-  /// most that is plausible, for it shows in commands and counts or not at all.
+  /// The numbers at which this direction has the wanted severity on the tracks; where no plausible size has, half of
+  /// the most that is plausible, for it shows in commands and counts or not at all.
   Eigen::VectorXd at_severity(const Eigen::VectorXd& direction, double wanted) const;
   Eigen::VectorXd within_plausible(Eigen::VectorXd numbers) const;
 };
@@ -32,11 +32,11 @@ struct Signature {
 struct Signatures {
   std::vector<Signature> all;
   std::vector<Eigen::MatrixXd> columns;  ///< per run
-  Eigen::MatrixXd habits;                ///< what any set of runs shows of how it is driven and read, once (gap/habits.h)
+  Eigen::MatrixXd habits;  ///< what any set of runs shows of how it is driven and read, once (gap/habits.h)
 
-  /// An effect that bends the simulator, or cannot be negative, is simulated at the wanted severity and its secant taken;
-  /// any other is simulated at its family's step. `counted`: runs that a severity is measured on. `severity` 0: all at the
-  /// families' own steps and starts, where the search has simulated them already.
+  /// An effect that bends the simulator, or cannot be negative, is simulated at the wanted severity and its secant
+  /// taken; any other is simulated at its family's step. `counted`: runs that a severity is measured on. `severity` 0:
+  /// all at the families' own steps and starts, where the search has simulated them already.
   Signatures(const Model& model, const std::vector<PlannedFamily>& families, const std::vector<std::size_t>& counted,
              double severity, double radius_scatter);
 };

@@ -61,7 +61,8 @@ Eigen::MatrixXd without(const Eigen::MatrixXd& A, const std::vector<Signature>& 
   Eigen::MatrixXd result = A;
   for (const FixedTruth& t : others) {
     const Signature& s = signatures[t.signature];
-    Eigen::MatrixXd M = s.prior_sd.asDiagonal() * result.block(s.first, s.first, s.count, s.count) * s.prior_sd.asDiagonal();
+    Eigen::MatrixXd M =
+        s.prior_sd.asDiagonal() * result.block(s.first, s.first, s.count, s.count) * s.prior_sd.asDiagonal();
     M.diagonal().array() += 1;
     const Eigen::MatrixXd cross = s.prior_sd.asDiagonal() * result.middleRows(s.first, s.count);
     result = (result - cross.transpose() * M.inverse() * cross).eval();
@@ -135,14 +136,15 @@ void add_ties(const Ties& ties, const Thresholds& t, Diagnosis& d) {
   d.indistinguishable = ties.groups;
   constexpr double kNotFar = 2;  // times the evidence within which the set's members lie
   for (const std::string& effect : ties.could_be) {
-    const auto fitted = std::find_if(d.causes.begin(), d.causes.end(), [&](const Cause& c) { return c.name == effect; });
+    const auto fitted =
+        std::find_if(d.causes.begin(), d.causes.end(), [&](const Cause& c) { return c.name == effect; });
     const bool near = fitted == d.causes.end() || d.causes.front().score - fitted->score < kNotFar * t.tie;
     if (near && !holds(d.set, effect)) d.set.push_back(effect);
   }
 }
 
-std::vector<NextExperiment> next_experiments(const Model& menu, const std::vector<std::string>& labels, const Ties& ties,
-                                             const Thresholds& t) {
+std::vector<NextExperiment> next_experiments(const Model& menu, const std::vector<std::string>& labels,
+                                             const Ties& ties, const Thresholds& t) {
   std::vector<NextExperiment> all;
   const Signatures signatures(menu, ties.families, menu.all_runs(), 0, kScatter);
   const auto grams = menu.grams(menu.residuals(menu.predict({{}}).front()), signatures.columns);

@@ -9,7 +9,8 @@
 
 namespace umbsim::gap {
 
-/// Effects that a diagnosis could have mistaken for its first cause, by prediction for these very runs at the fitted sizes.
+/// Effects that a diagnosis could have mistaken for its first cause, by prediction for these very runs at the fitted
+/// sizes.
 struct Ties {
   std::size_t own = 0;                 ///< members that the first cause is made of: no rivals of each other
   std::vector<std::string> members;    ///< those, then effects tied with them or in the set
@@ -24,8 +25,8 @@ struct Ties {
 Ties find_ties(const Model& model, const Diagnosis& diagnosis, const std::set<std::string>& excluded,
                const Thresholds& thresholds, double alike = 0.1);
 
-/// Fills in what the diagnosis's first cause cannot be told from, and adds to its set what would often be named so: what was
-/// not fitted at all, or is not far behind.
+/// Fills in what the diagnosis's first cause cannot be told from, and adds to its set what would often be named so:
+/// what was not fitted at all, or is not far behind.
 void add_ties(const Ties& ties, const Thresholds& thresholds, Diagnosis& diagnosis);
 
 /// A kind of run that would tell tied effects apart.
@@ -35,9 +36,10 @@ struct NextExperiment {
   double lead = 0;  ///< log evidence that it is expected to add, over the pairs that it separates
 };
 
-/// By the log evidence that is expected on top of that of the recorded runs. `menu`: a model of the menu's runs alone; `labels`: of its runs, cw and ccw of one kind one after the other. Kinds that
-/// separate nothing are left out, the best three are kept.
-std::vector<NextExperiment> next_experiments(const Model& menu, const std::vector<std::string>& labels, const Ties& ties,
-                                             const Thresholds& thresholds);
+/// By the log evidence that is expected on top of that of the recorded runs. `menu`: a model of the menu's runs alone;
+/// `labels`: of its runs, cw and ccw of one kind one after the other. Kinds that separate nothing are left out, the
+/// best three are kept.
+std::vector<NextExperiment> next_experiments(const Model& menu, const std::vector<std::string>& labels,
+                                             const Ties& ties, const Thresholds& thresholds);
 
 }  // namespace umbsim::gap

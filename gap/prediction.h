@@ -23,8 +23,8 @@ struct RunError {
   double frame_deg = 0;       ///< fitted turn of the tracker's frame
 };
 
-/// The motion of the plane (turn about the origin, then shift) that takes a track's positions nearest to the recorded ones,
-/// by least squares.
+/// The motion of the plane (turn about the origin, then shift) that takes a track's positions nearest to the recorded
+/// ones, by least squares.
 Pose2 best_motion(const RecordedRun& run, const std::vector<Pose2>& track);
 
 /// Errors of one run. The best motion of the whole predicted track stands for the start pose and the frame's heading,

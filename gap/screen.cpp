@@ -138,8 +138,8 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
       offer(bump_family(k.x_m, k.y_m, k.heading_rad), {vector_of({height_m, 0})}, {0.002, 0.02}, k.gain);
     }
     offer(lift_family(k.x_m, k.y_m), all_of({{0.03, 0.08, 0.15}, {0}, {0}}), {0.02, 0.04, 0.04}, k.gain - 1);
-    offer(patch_family(k.x_m, k.y_m), all_of({{0.02, 0.035, 0.05}, {0.1, 0.25, 0.45}, {0}, {0}}), {0.006, 0.06, 0.1, 0.1},
-          k.gain - 2);
+    offer(patch_family(k.x_m, k.y_m), all_of({{0.02, 0.035, 0.05}, {0.1, 0.25, 0.45}, {0}, {0}}),
+          {0.006, 0.06, 0.1, 0.1}, k.gain - 2);
   }
   if (kicks.moments.empty() || kicks.moments.front().gain < kLeastKick) return;
   const Kick& k = kicks.moments.front();

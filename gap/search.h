@@ -8,8 +8,8 @@
 
 namespace umbsim::gap {
 
-/// Families of effects with their whitened derivatives from the nominal robot, so that any of them can be tried on top of
-/// any fit by linear algebra.
+/// Families of effects with their whitened derivatives from the nominal robot, so that any of them can be tried on top
+/// of any fit by linear algebra.
 class Screen {
  public:
   Screen(const Model& model, const std::set<std::string>& excluded);

@@ -157,7 +157,9 @@ Simulator cached(Simulator simulator, const Recording& recording, const std::str
   Simulator result;
   result.ticks = [store](std::size_t run, const std::vector<Effect>& e) { return cached_ticks(*store, run, e); };
   if (commands) {
-    result.commands = [store](std::size_t run, const std::vector<Effect>& e) { return cached_commands(*store, run, e); };
+    result.commands = [store](std::size_t run, const std::vector<Effect>& e) {
+      return cached_commands(*store, run, e);
+    };
   }
   result.habits = habits;
   return result;

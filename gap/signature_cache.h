@@ -22,8 +22,9 @@ std::optional<std::filesystem::path> user_cache_folder();
 
 /// The same simulator, which simulates nothing twice. What it returns is the same bytes as without.
 /// `identity`: everything but the recording that the tracks depend on: program, robot, scenario.
-/// A file is written beside and renamed, and read only if its checksum is right, so several processes may share a folder
-/// and a broken file is computed again. A folder that cannot be written is done without.
-Simulator cached(Simulator simulator, const Recording& recording, const std::string& identity, const CacheChoice& choice);
+/// A file is written beside and renamed, and read only if its checksum is right, so several processes may share a
+/// folder and a broken file is computed again. A folder that cannot be written is done without.
+Simulator cached(Simulator simulator, const Recording& recording, const std::string& identity,
+                 const CacheChoice& choice);
 
 }  // namespace umbsim::gap

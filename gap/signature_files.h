@@ -9,8 +9,8 @@
 
 namespace umbsim::gap {
 
-/// A folder of number lists under hexadecimal keys, shared by any number of processes. Nothing here throws: what cannot be
-/// read is not there, what cannot be written is not kept.
+/// A folder of number lists under hexadecimal keys, shared by any number of processes. Nothing here throws: what cannot
+/// be read is not there, what cannot be written is not kept.
 class SignatureFiles {
  public:
   SignatureFiles(std::filesystem::path folder, std::uint64_t max_bytes);

@@ -21,7 +21,8 @@ struct NoiseModel {
 /// Errors of a track against a prediction, (along, across, heading) in the predicted robot's frame: 3 rows a sample.
 using TrackColumns = Eigen::MatrixXd;
 
-/// How a small error of the pose (along, across, heading) moves along when the robot moves by `u`: u^-1 e u to first order.
+/// How a small error of the pose (along, across, heading) moves along when the robot moves by `u`: u^-1 e u to first
+/// order.
 Eigen::Matrix3d error_transition(const Pose2& u);
 
 /// Log of the pose error: rows 3k..3k+2 are X_predicted^-1 X_true of sample k.
@@ -32,9 +33,9 @@ Eigen::VectorXd track_error(const std::vector<Pose2>& predicted, const std::vect
 /// column of track errors (a residual, or what an effect would do) is whitened alike.
 class TrackFilter {
  public:
-  /// `path`: predicted poses; `rolled_m`: mean distance that the wheels rolled before each sample (same length, first 0).
-  /// `observed`: which samples the tracker really saw; empty: all. `velocity`: of the robot at each sample (along, across,
-  /// turning; m/s, rad/s), for the scatter of the clock; empty: none.
+  /// `path`: predicted poses; `rolled_m`: mean distance that the wheels rolled before each sample (same length, first
+  /// 0). `observed`: which samples the tracker really saw; empty: all. `velocity`: of the robot at each sample (along,
+  /// across, turning; m/s, rad/s), for the scatter of the clock; empty: none.
   TrackFilter(const std::vector<Pose2>& path, const std::vector<double>& rolled_m, const NoiseModel& noise,
               const std::vector<bool>& observed = {}, const std::vector<Eigen::Vector3d>& velocity = {});
 

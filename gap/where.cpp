@@ -120,13 +120,15 @@ std::string describe_left_over(const Model& model, const Fit& fit) {
   }
   if (total < 5 || scores.empty()) return "";
   const auto most = [](const std::map<std::string, double>& shares) {
-    return *std::max_element(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    return *std::max_element(shares.begin(), shares.end(),
+                             [](const auto& a, const auto& b) { return a.second < b.second; });
   };
   const auto [part, part_score] = most(by_part);
   const auto [run, run_score] = most(by_run);
   std::string text = fmt::format("{:.0f} % of what is left sits in the {}s", 100 * part_score / total, part);
   if (part == "cruise") text = fmt::format("{:.0f} % of what is left sits along the legs", 100 * part_score / total);
-  if (part == "start" || part == "stop") text = fmt::format("{:.0f} % of what is left sits at the legs' {}s", 100 * part_score / total, part);
+  if (part == "start" || part == "stop")
+    text = fmt::format("{:.0f} % of what is left sits at the legs' {}s", 100 * part_score / total, part);
   if (run_score > 0.5 * total) text += fmt::format(", {:.0f} % in run {} alone", 100 * run_score / total, run);
   const SegmentScore& worst = scores.front();
   return text + fmt::format("; most in run {}, leg {} ({}), near ({:.2f}, {:.2f}) m", worst.run, worst.leg, worst.part,

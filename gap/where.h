@@ -7,8 +7,8 @@
 
 namespace umbsim::gap {
 
-/// How much evidence each leg's start, cruise and stop and each turn of every run gives against the prediction of a fit,
-/// most first.
+/// How much evidence each leg's start, cruise and stop and each turn of every run gives against the prediction of a
+/// fit, most first.
 std::vector<SegmentScore> segment_scores(const Model& model, const Fit& fit);
 
 /// The pattern of an effect of the catalogue in the data: turns, legs, leg_start, place, wheel_angle, world_direction,

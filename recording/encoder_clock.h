@@ -10,7 +10,8 @@ namespace umbsim {
 /// Finds where times lie between encoder samples. Times must not decrease from call to call.
 class EncoderClock {
  public:
-  /// The sample before a time, and the share of the way to the next one, 0 to 1. Times outside count as the nearest end.
+  /// The sample before a time, and the share of the way to the next one, 0 to 1. Times outside count as the nearest
+  /// end.
   struct Moment {
     std::size_t before = 0;
     double share = 0;

@@ -150,7 +150,8 @@ void write_recording(const Recording& recording, const fs::path& directory) {
     if (!ids.insert(run.id).second) throw RunError(fmt::format("two runs have the id '{}'", run.id));
   }
   // Turning numbers into text takes as long as driving.
-  tbb::parallel_for(std::size_t(0), recording.runs.size(), [&](std::size_t r) { write_run(recording.runs[r], directory); });
+  tbb::parallel_for(std::size_t(0), recording.runs.size(),
+                    [&](std::size_t r) { write_run(recording.runs[r], directory); });
   write(directory / "recording.yaml", recording_text(recording));
 }
 

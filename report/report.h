@@ -11,8 +11,8 @@ namespace umbsim {
 /// actual wheelbase.
 std::string render_report(const nlohmann::json& data);
 
-/// The same for a sweep: `data` holds title, description, version, points, done, failed, checks, axes, figures, view, stride
-/// and rows (experiment/sweep_result.h).
+/// The same for a sweep: `data` holds title, description, version, points, done, failed, checks, axes, figures, view,
+/// stride and rows (experiment/sweep_result.h).
 std::string render_sweep_report(const nlohmann::json& data);
 
 /// The same for a gap diagnosis: `data` holds title, version, diagnosis (diagnosis.json without its cost) and runs

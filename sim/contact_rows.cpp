@@ -44,8 +44,8 @@ void World::State::add_contacts(double step_s, const DofVector& u) {
 
 // Unilateral row. A gap may close within the step but not become negative. In contact the row is a spring and damper
 // taken implicitly: impulse x = h (k (sink - h v) - d v), that is v + x / (h (h k + d)) = sink k / (h k + d).
-// Friction rows along the wheel's rolling direction and across it, at the rolling radius. An eccentric rim is taken where
-// it is in the middle of the step: its way round the axle is then exact to second order.
+// Friction rows along the wheel's rolling direction and across it, at the rolling radius. An eccentric rim is taken
+// where it is in the middle of the step: its way round the axle is then exact to second order.
 void World::State::add_contact(int support, const NearestPoint& nearest, double step_s, const DofVector& u) {
   const Support& s = supports[support];
   const Matrix3d R_BW = body.rotation().transpose();
@@ -55,7 +55,8 @@ void World::State::add_contact(int support, const NearestPoint& nearest, double 
   const Vector3d towards = s.disc ? Vector3d((axis * axis.dot(normal) - normal).normalized()) : Vector3d(-normal);
   const double half_step_rad = s.wheel >= 0 ? 0.5 * step_s * u[6 + s.wheel] : 0;
   const Vector3d rim = rim_centre(s, hinge, half_step_rad) + rolling_radius(s) * towards;
-  const double friction = s.friction_scale * friction_at(floor, nearest.point_m.x(), nearest.point_m.y()) + s.own_friction;
+  const double friction =
+      s.friction_scale * friction_at(floor, nearest.point_m.x(), nearest.point_m.y()) + s.own_friction;
   problem.contact[problem.contacts] = {rows, friction};
   contact_support[problem.contacts++] = support;
 

@@ -4,8 +4,8 @@
 
 namespace umbsim {
 
-/// What stands between a wheel-speed command and one wheel. Nominal: a speed-controlled motor that follows its set-point
-/// exactly within its torque limit; the set-point ramps from one command to the next over one control period.
+/// What stands between a wheel-speed command and one wheel. Nominal: a speed-controlled motor that follows its
+/// set-point exactly within its torque limit; the set-point ramps from one command to the next over one control period.
 struct Motor {
   double torque_limit_nm = 20;  ///< at the wheel; 0: the wheel runs free
   double gain = 1;              ///< speed over commanded speed

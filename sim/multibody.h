@@ -16,8 +16,8 @@ constexpr int kMaxDofs = 16;
 using DofVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxDofs, 1>;
 using DofMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kMaxDofs, kMaxDofs>;
 
-/// How the robot answers while both motors hold the wheels at their set-points. With e the two wheel columns of M^-1 and
-/// inertia = (e^T M^-1 e)^-1:
+/// How the robot answers while both motors hold the wheels at their set-points. With e the two wheel columns of M^-1
+/// and inertia = (e^T M^-1 e)^-1:
 struct HeldMotors {
   DofMatrix inverse_mass;                ///< M^-1 - M^-1 e inertia e^T M^-1; the wheels' rows and columns are zero
   Eigen::Matrix<double, 8, 2> gain;      ///< M^-1 e inertia: change of u per change of wheel speed
@@ -55,9 +55,9 @@ class MultiBody {
   const DofVector& velocity() const { return u_; }
   void set_velocity(const DofVector& u) { u_ = u; }
 
-  /// Velocity after `step_s` under gravity and gyroscopic forces, without contacts and motors: Bullet's articulated-body
-  /// algorithm. Where no caster swivels, the same from Bullet's inverse mass matrix and the gyroscopic terms of bodies
-  /// of revolution in closed form (equal to round-off, and seven times faster).
+  /// Velocity after `step_s` under gravity and gyroscopic forces, without contacts and motors: Bullet's
+  /// articulated-body algorithm. Where no caster swivels, the same from Bullet's inverse mass matrix and the gyroscopic
+  /// terms of bodies of revolution in closed form (equal to round-off, and seven times faster).
   DofVector free_velocity(double step_s);
   DofVector free_velocity_articulated(double step_s);
 

@@ -40,7 +40,8 @@ struct Wheel {
 /// A support that is not driven: a fixed ball, or a wheel that swivels about an upright axis.
 struct Caster {
   std::string link;
-  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< of the ball or of the caster wheel, base frame, swivel angle 0
+  Eigen::Vector3d centre_m =
+      Eigen::Vector3d::Zero();  ///< of the ball or of the caster wheel, base frame, swivel angle 0
   double radius_m = 0;
   double friction = 0;  ///< of a fixed ball against the floor (a swivelling wheel has the floor's)
   bool swivels = false;

@@ -36,7 +36,8 @@ void World::State::step(double step_s, const std::array<double, 2>& target_radps
 }
 
 // Nearly always both motors can hold their set-points: the wheel speeds are then known, and the contacts act on a
-// robot whose wheels cannot give. Exact if the motor impulses that follow are within their limits; otherwise u is as it was.
+// robot whose wheels cannot give. Exact if the motor impulses that follow are within their limits; otherwise u is as it
+// was.
 bool World::State::step_with_holding_motors(double step_s, const std::array<double, 2>& target_radps, DofVector& u) {
   const HeldMotors* held = body.held_motors();
   const auto& motor = drivetrain.motor;
@@ -82,8 +83,8 @@ void World::State::add_motor(int wheel, double target_radps, double step_s, cons
   ++rows;
 }
 
-// Dry friction, at most M; swivelling at less than kSwivelFade of the rolling rate it is in proportion to the rate, hence
-// a compliance kSwivelFade * rate / M of the row.
+// Dry friction, at most M; swivelling at less than kSwivelFade of the rolling rate it is in proportion to the rate,
+// hence a compliance kSwivelFade * rate / M of the row.
 void World::State::add_swivel_friction(double step_s, const DofVector& u) {
   for (std::size_t i = 0; i < robot.casters.size(); ++i) {
     const Caster& c = robot.casters[i];

@@ -74,7 +74,8 @@ RollingShape World::State::shape(const Support& s) const {
 }
 
 void World::State::set_gravity() {
-  const double down = options.gravity_mps2 * std::cos(floor.slope_rad), along = options.gravity_mps2 * std::sin(floor.slope_rad);
+  const double down = options.gravity_mps2 * std::cos(floor.slope_rad),
+               along = options.gravity_mps2 * std::sin(floor.slope_rad);
   body.set_gravity({along * std::cos(floor.downhill_rad), along * std::sin(floor.downhill_rad), -down});
 }
 
@@ -130,9 +131,10 @@ void World::place(const Pose2& X_WB) {
 void World::command(double left_radps, double right_radps) {
   for (const double radps : {left_radps, right_radps}) {
     if (!(std::abs(radps) > kFastestCommand_radps)) continue;
-    throw InputError(fmt::format("{}: a wheel is commanded to turn at {:g} rad/s (must be >= {:g} and <= {:g}); this comes "
-                                 "from the speeds of the course and from the radii and wheelbase of the odometry",
-                                 state_->robot.urdf, radps, -kFastestCommand_radps, kFastestCommand_radps));
+    throw InputError(
+        fmt::format("{}: a wheel is commanded to turn at {:g} rad/s (must be >= {:g} and <= {:g}); this comes "
+                    "from the speeds of the course and from the radii and wheelbase of the odometry",
+                    state_->robot.urdf, radps, -kFastestCommand_radps, kFastestCommand_radps));
   }
   state_->command_radps = {left_radps, right_radps};
 }

@@ -167,7 +167,8 @@ Umbmark umbmark(const Recording& recording, const OdometryParameters& odometry) 
   Cluster cw = cluster(return_errors(recording, odometry, "cw", false));
   Cluster ccw = cluster(return_errors(recording, odometry, "ccw", false));
   for (const auto& [c, direction] : {std::pair{&cw, "cw"}, std::pair{&ccw, "ccw"}}) {
-    if (c->errors.empty()) throw InputError(fmt::format("runs: UMBmark needs both directions, there is no {} run", direction));
+    if (c->errors.empty())
+      throw InputError(fmt::format("runs: UMBmark needs both directions, there is no {} run", direction));
   }
   return umbmark(std::move(cw), std::move(ccw), recording.path.side_m, odometry.wheelbase_m);
 }

@@ -90,7 +90,8 @@ ErrorShares error_shares(const std::vector<ErrorShares>& directions);
 /// Square runs only. `nominal_wheelbase_m` is the odometry's. Throws std::invalid_argument if a direction is empty.
 Umbmark umbmark(Cluster cw, Cluster ccw, double side_m, double nominal_wheelbase_m);
 
-/// (docs: recorded runs without bumps, both directions.) Throws InputError if the recording is not a square, or lacks a direction.
+/// (docs: recorded runs without bumps, both directions.) Throws InputError if the recording is not a square, or lacks a
+/// direction.
 Umbmark umbmark(const Recording& recording, const OdometryParameters& odometry);
 
 /// Empty if the recording has no bumped runs of both directions.

@@ -80,9 +80,10 @@ std::string shipped_steps_line(Grid grid) {
       most = std::max(most, out.ratio);
     }
   }
-  return fmt::format("The same supports with the shipped step of 1 ms, at 0.02 and at 0.05 m/s, wherever the wheel can climb: {:.4f} "
-                     "to {:.4f}. What that costs: [bench.md](bench.md).\n\n",
-                     least, most);
+  return fmt::format(
+      "The same supports with the shipped step of 1 ms, at 0.02 and at 0.05 m/s, wherever the wheel can climb: {:.4f} "
+      "to {:.4f}. What that costs: [bench.md](bench.md).\n\n",
+      least, most);
 }
 
 // Left against right in the grid's rigid limit.
@@ -94,7 +95,8 @@ std::string mirror_line(Grid grid) {
     other.wheel = 1;
     if (left.crossed) worst = std::max(worst, std::abs(left.ratio - cross(other).ratio));
   }
-  return fmt::format("Right wheel instead of left, whole grid at 0.2 m/s: the ratio changes by at most {:.1e}.\n\n", worst);
+  return fmt::format("Right wheel instead of left, whole grid at 0.2 m/s: the ratio changes by at most {:.1e}.\n\n",
+                     worst);
 }
 
 std::string limits_table() {

@@ -29,7 +29,8 @@ casters have the wheels' friction here.)
 
 )";
 
-constexpr const char* kBallShare = R"(**The frictionless ball's share.** Heading straight down (σ = 1) or up (σ = -1), with the ball at x_b, the centre of mass
+constexpr const char* kBallShare =
+    R"(**The frictionless ball's share.** Heading straight down (σ = 1) or up (σ = -1), with the ball at x_b, the centre of mass
 at x_c and height h: the loads N_w + N_b = m g cos α and the moments N_w (x_c + σ μ h) = N_b (x_b - x_c) give
 
 ```
@@ -38,7 +39,8 @@ N_w = m g cos α (x_b - x_c) / (x_b + σ μ h),     a = g sin α - μ N_w / m
 
 )";
 
-constexpr const char* kTurning = R"(**Turning.** With a frictionless ball the brakes pull on the axle and the weight on the centre of mass: the robot swings
+constexpr const char* kTurning =
+    R"(**Turning.** With a frictionless ball the brakes pull on the axle and the weight on the centre of mass: the robot swings
 like a weathervane. With one free wheel it also turns about the braked one. No closed form is known to us; the figures
 are compared with an integrator of their own (`bench/fidelity/plane_dynamics.cpp`): one rigid body in the plane,
 Coulomb's law at each contact, loads from the moment equations, L-stable and of second order. It shares nothing with the
@@ -60,8 +62,9 @@ std::string downhill_table(Grid grid) {
         turned = std::max(turned, std::abs(s.turned_rad));
         acceleration = std::max(acceleration, std::abs(s.acceleration_ratio - 1));
       }
-      table.row({name, contacts, std::to_string(slide_headings(grid).size()), fmt::format("{:.1e}°", degrees(direction)),
-                 fmt::format("{:.1e}°", degrees(turned)), fmt::format("{:.1e}", acceleration)});
+      table.row({name, contacts, std::to_string(slide_headings(grid).size()),
+                 fmt::format("{:.1e}°", degrees(direction)), fmt::format("{:.1e}°", degrees(turned)),
+                 fmt::format("{:.1e}", acceleration)});
     }
   }
   return table.text();

@@ -28,7 +28,8 @@ sideways must scrub. That is a loss of the modelled robot, not of the method.
 
 )";
 
-const char* const kBrakeText = R"(**Braking.** Locked wheels that slide to a stop dissipate μ N_w d, with N_w = m g (x_b - x_c) / (x_b + μ h) (chapter 1, on
+const char* const kBrakeText =
+    R"(**Braking.** Locked wheels that slide to a stop dissipate μ N_w d, with N_w = m g (x_b - x_c) / (x_b + μ h) (chapter 1, on
 the level). **Climbing.** From rest to rest up a slope the robot gains m g d sin α, d = R φ. Ratio of the measured energy
 to this, minus one. In one step the force acts along the distance driven with the step's final speed, so a brake loses
 μ N_w d + m (Δv)² / 2 per step: again an error in proportion to the step.

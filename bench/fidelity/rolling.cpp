@@ -23,13 +23,15 @@ driving. The contacts creep by 1e-9 m/s per newton (see [physics.md](physics.md)
 
 )";
 
-constexpr const char* kToeText = R"(**Toe and skew.** Both wheels turned by δ in the same sense: nothing slides, the robot moves askew, along δ, by R φ.
+constexpr const char* kToeText =
+    R"(**Toe and skew.** Both wheels turned by δ in the same sense: nothing slides, the robot moves askew, along δ, by R φ.
 Toe-in (each wheel towards the other): equal loads drag sideways against each other; along the robot the drag must be
 zero, so the slip has no part along it, and the robot advances R φ cos δ, straight.
 
 )";
 
-constexpr const char* kEccentricText = R"(**Eccentric wheel.** The left rim's centre is e off the axle, forward at first. The rim's centre advances by R φ, the axle by
+constexpr const char* kEccentricText =
+    R"(**Eccentric wheel.** The left rim's centre is e off the axle, forward at first. The rim's centre advances by R φ, the axle by
 R φ - e (cos φ - 1): the heading is (e / b) (cos φ - 1), a ripple of amplitude e / b at the wheel's frequency, which
 returns to zero after each revolution. The lean of the axle and the robot's turning change this in second order of e.
 1 rad/s, four revolutions; the step's part is of second order.
@@ -133,7 +135,8 @@ EccentricCheck roll_eccentric(double eccentricity_m, double step_s) {
     check.off_rad = std::max(check.off_rad, std::abs(off));
   }
   check.ripple_rad = (high - low) / 2;
-  check.drift_rad = (off_sum[kRevolutions - 1] / samples[kRevolutions - 1] - off_sum[1] / samples[1]) / (kRevolutions - 2);
+  check.drift_rad =
+      (off_sum[kRevolutions - 1] / samples[kRevolutions - 1] - off_sum[1] / samples[1]) / (kRevolutions - 2);
   return check;
 }
 

@@ -22,10 +22,10 @@ struct DiagnoseResult {
   std::size_t failed = 0;    ///< of these, those whose process failed
 };
 
-/// Diagnoses every case in a process of its own. The process is given a copy of the one recording in a temporary folder,
-/// its work folder and home, and an environment of nothing else but PATH and the cache. What it leaves is kept under
-/// diagnoses/<case>/: diagnosis.json, twin.yaml, and process.json (exit code, wall time, the answers' seal as it was
-/// then, the end of its messages if it failed). Goes on where an earlier call stopped. Throws RunError, InputError.
+/// Diagnoses every case in a process of its own. The process is given a copy of the one recording in a temporary
+/// folder, its work folder and home, and an environment of nothing else but PATH and the cache. What it leaves is kept
+/// under diagnoses/<case>/: diagnosis.json, twin.yaml, and process.json (exit code, wall time, the answers' seal as it
+/// was then, the end of its messages if it failed). Goes on where an earlier call stopped. Throws RunError, InputError.
 DiagnoseResult diagnose_cases(const TrialFolder& folder, const DiagnoseOptions& options);
 
 }  // namespace umbsim

@@ -5,8 +5,8 @@
 
 namespace umbsim {
 
-/// How one parameter follows the amplitude a of its effect: offset + weight * a, or weight / a where strong effects have
-/// small values (friction, ticks).
+/// How one parameter follows the amplitude a of its effect: offset + weight * a, or weight / a where strong effects
+/// have small values (friction, ticks).
 struct AmplitudeParameter {
   std::size_t index = 0;  ///< in the catalogue's line
   double weight = 1;

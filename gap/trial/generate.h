@@ -16,8 +16,8 @@ struct GenerateResult {
 };
 
 /// Draws the cases of a trial, drives them and writes their recordings; when the last one stands, seals the answers.
-/// Goes on where an earlier call stopped. Cases are driven in parallel on `jobs` threads (0: all cores); the files do not
-/// depend on their number, nor on how the cases were shared out among shards. Throws InputError if the folder holds
+/// Goes on where an earlier call stopped. Cases are driven in parallel on `jobs` threads (0: all cores); the files do
+/// not depend on their number, nor on how the cases were shared out among shards. Throws InputError if the folder holds
 /// another trial, RunError.
 GenerateResult generate_trial(const TrialPlan& plan, const TrialFolder& folder, const TrialSimulator& simulator,
                               Shard shard, int jobs);

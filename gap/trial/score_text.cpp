@@ -60,10 +60,17 @@ Json effects_json(const Answer& answer) {
 
 Json verdict_json(const Verdict& v) {
   const std::optional<double> severity = v.answer.severity();
-  Json json{{"name", v.name}, {"tier", name(v.answer.tier)}, {"effects", effects_json(v.answer)},
-            {"severity", severity ? Json(*severity) : Json()}, {"undetectable_expected", v.answer.undetectable_expected},
-            {"named", v.named}, {"probability", v.probability}, {"right", v.right}, {"right_or_tied", v.right_or_tied},
-            {"in_set", v.in_set}, {"wall_s", v.wall_s}};
+  Json json{{"name", v.name},
+            {"tier", name(v.answer.tier)},
+            {"effects", effects_json(v.answer)},
+            {"severity", severity ? Json(*severity) : Json()},
+            {"undetectable_expected", v.answer.undetectable_expected},
+            {"named", v.named},
+            {"probability", v.probability},
+            {"right", v.right},
+            {"right_or_tied", v.right_or_tied},
+            {"in_set", v.in_set},
+            {"wall_s", v.wall_s}};
   Json set = Json::array();
   for (const EffectNames& member : v.diagnosis.set) set.push_back(joined(member));
   json["set"] = set;
@@ -102,8 +109,8 @@ std::string tally_line(const std::string& label, const Tally& t) {
 }
 
 std::string tally_header(const char* title) {
-  return fmt::format("{:<28}{:>6}{:>8}{:>9}{:>8}{:>10}{:>9}\n", title, "cases", "right", "or tied", "in set", "detected",
-                     "unknown");
+  return fmt::format("{:<28}{:>6}{:>8}{:>9}{:>8}{:>10}{:>9}\n", title, "cases", "right", "or tied", "in set",
+                     "detected", "unknown");
 }
 
 std::string severity_label(const SeverityBin& bin) {
@@ -178,7 +185,8 @@ std::string confusion_svg(const Confusion& c, const std::string& title) {
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
       "font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n"
-      "<text x=\"{2}\" y=\"20\" font-size=\"14\">{3}</text>\n<text x=\"{2}\" y=\"36\">rows: truth, columns: first cause "
+      "<text x=\"{2}\" y=\"20\" font-size=\"14\">{3}</text>\n<text x=\"{2}\" y=\"36\">rows: truth, columns: first "
+      "cause "
       "named</text>\n",
       width, height, kMargin, title);
   for (std::size_t k = 0; k < c.columns.size(); ++k) {
@@ -194,8 +202,8 @@ std::string confusion_svg(const Confusion& c, const std::string& title) {
       svg += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#1f5fa8\" fill-opacity=\"{:.3f}\" "
                          "stroke=\"#cccccc\"/>\n", x, y, kCell, kCell, share_of_row);
       if (n == 0) continue;
-      svg += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" fill=\"{}\">{}</text>\n", x + kCell / 2, y + 15,
-                         share_of_row > 0.5 ? "white" : "black", n);
+      svg += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" fill=\"{}\">{}</text>\n", x + kCell / 2,
+                         y + 15, share_of_row > 0.5 ? "white" : "black", n);
     }
   }
   return svg + "</svg>\n";

@@ -14,8 +14,8 @@ std::optional<std::string> read_seal(const TrialFolder& folder);
 /// Writes the answers and then their hash. Returns the hash.
 std::string seal_answers(const TrialFolder& folder, const std::string& answers);
 
-/// Whether the answers file is the one that was sealed. Throws InputError if it was changed since; false if it was never
-/// sealed.
+/// Whether the answers file is the one that was sealed. Throws InputError if it was changed since; false if it was
+/// never sealed.
 bool check_seal(const std::filesystem::path& answers, const std::optional<std::string>& sealed_hash);
 
 }  // namespace umbsim

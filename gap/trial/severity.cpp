@@ -116,7 +116,8 @@ double ratio(const std::array<double, 3>& change, const std::array<double, 3>& n
 // Looks for the amplitude of a severity and keeps the nearest that it has seen.
 class AmplitudeSearch {
  public:
-  AmplitudeSearch(const DrawnEffect& drawn, Signal signal, double wanted, double noise_level, const SeverityScale& scale)
+  AmplitudeSearch(const DrawnEffect& drawn, Signal signal, double wanted, double noise_level,
+                  const SeverityScale& scale)
       : drawn_(drawn), signal_(signal), wanted_(wanted), noise_level_(noise_level), scale_(scale) {
     highest_ = wanted_ * std::exp(miss(std::log(drawn_.range.max)));
   }

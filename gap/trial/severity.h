@@ -79,10 +79,10 @@ struct ScaledEffect {
 };
 
 /// Finds the amplitude with the drawn severity (root of log severity over log amplitude), in units of the noise floor
-/// at `noise_level`, in the first signal in which the plausible maximum reaches the end of `drawn_from`, else in the one
-/// in which it reaches farthest; then the drawn severity's place in `drawn_from` becomes the same place in the range up
-/// to there. Where it reaches less than kLeastSeverity, the amplitude is drawn log-uniformly from the plausible range and
-/// the effect counts as undetectable.
+/// at `noise_level`, in the first signal in which the plausible maximum reaches the end of `drawn_from`, else in the
+/// one in which it reaches farthest; then the drawn severity's place in `drawn_from` becomes the same place in the
+/// range up to there. Where it reaches less than kLeastSeverity, the amplitude is drawn log-uniformly from the
+/// plausible range and the effect counts as undetectable.
 ScaledEffect scale_effect(const DrawnEffect& drawn, double severity, const Range& drawn_from, double noise_level,
                           const SeverityScale& scale, RandomStream& random);
 

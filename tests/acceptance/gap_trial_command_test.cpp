@@ -22,9 +22,10 @@ runs:
 
 /// A program that stands in for the diagnosis and always says the same.
 std::string says(const std::string& cause) {
-  return "#!/bin/sh\nmkdir diagnosis && echo '{\"format\":\"umbsim-diagnosis/1\",\"gap\":{\"detected\":true},\"causes\":"
-         "[{\"effects\":{\"" + cause + "\":{}},\"probability\":0.5}],\"set\":[\"" + cause +
-         "\"]}' > diagnosis/diagnosis.json\n";
+  return "#!/bin/sh\nmkdir diagnosis && echo "
+         "'{\"format\":\"umbsim-diagnosis/1\",\"gap\":{\"detected\":true},\"causes\":"
+         "[{\"effects\":{\"" +
+         cause + "\":{}},\"probability\":0.5}],\"set\":[\"" + cause + "\"]}' > diagnosis/diagnosis.json\n";
 }
 
 std::string script(const Desk& desk, const std::string& cause) {
@@ -99,8 +100,9 @@ TEST(GapTrialCommand, ChangedAnswersAreRefused) {
   desk.put("t/cases.json", R"({"format":"umbsim-trial-cases/1","trial":"t","cases":[{"name":"a","exclude":[]}]})");
   desk.put("t/answers.json", R"({"format":"umbsim-trial-answers/1","cases":{"a":{"effects":{}}}})");
   desk.put("t/answers.sha256", std::string(64, '0') + "  answers.json\n");
-  desk.put("t/diagnoses/a/diagnosis.json",
-           R"({"format":"umbsim-diagnosis/1","gap":{"detected":false},"causes":[{"effects":{"none":{}},"probability":1}],"set":["none"]})");
+  desk.put(
+      "t/diagnoses/a/diagnosis.json",
+      R"({"format":"umbsim-diagnosis/1","gap":{"detected":false},"causes":[{"effects":{"none":{}},"probability":1}],"set":["none"]})");
   const Outcome outcome = desk.umbsim({"gap", "trial", "score", "t"});
   EXPECT_EQ(outcome.code, kBadInput);
   expect_says(outcome.err, {"answers.json", "SHA-256", "sealed"});

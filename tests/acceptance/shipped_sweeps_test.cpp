@@ -22,7 +22,8 @@ TEST_P(Shipped, MeetsItsExpectations) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sweep, Shipped,
-                         testing::Values("recovery", "bump_height", "friction", "encoder_resolution", "sampling", "square_side"),
+                         testing::Values("recovery", "bump_height", "friction", "encoder_resolution", "sampling",
+                                         "square_side"),
                          [](const auto& sweep) { return std::string(sweep.param); });
 
 TEST(ShippedSweeps, AreAllTested) {

@@ -120,11 +120,12 @@ const std::string kExpect =
 TEST_F(SweepCommand, UnmetExpectationsAreListed) {
   const Outcome outcome = sweep(tiny_sweep(3, kExpect), {"--junit", "junit.xml"});
   EXPECT_EQ(outcome.code, 1);
-  expect_says(outcome.out, {"met      recovery.e_b_error: abs_max 1  (6 points, worst",
-                            "NOT MET  umbmark.e_max_syst_m: max 0.005, where calibration.method = heading  (2 of 3 points)",
-                            "point 1, effects.wheelbase.relative=-0.02, calibration.method=heading: ",
-                            "point 5, effects.wheelbase.relative=0.02, calibration.method=heading: ",
-                            "met      umbmark.e_max_syst_m: max 0.5, quantile 0.9"});
+  expect_says(outcome.out,
+              {"met      recovery.e_b_error: abs_max 1  (6 points, worst",
+               "NOT MET  umbmark.e_max_syst_m: max 0.005, where calibration.method = heading  (2 of 3 points)",
+               "point 1, effects.wheelbase.relative=-0.02, calibration.method=heading: ",
+               "point 5, effects.wheelbase.relative=0.02, calibration.method=heading: ",
+               "met      umbmark.e_max_syst_m: max 0.5, quantile 0.9"});
   EXPECT_EQ(outcome.err, "umbsim: an expectation was not met\n");
   EXPECT_TRUE(fs::exists(desk_.home / "s/report.html")) << "the result is there all the same";
 }
@@ -140,7 +141,8 @@ TEST_F(SweepCommand, JunitHoldsATestCaseForEveryPoint) {
     ++cases;
     if (const auto* failure = c->FirstChildElement("failure")) {
       ++failures;
-      EXPECT_NE(std::string(failure->Attribute("message")).find("expected umbmark.e_max_syst_m: max 0.005"), std::string::npos);
+      EXPECT_NE(std::string(failure->Attribute("message")).find("expected umbmark.e_max_syst_m: max 0.005"),
+                std::string::npos);
     }
   }
   EXPECT_EQ(suite->IntAttribute("tests"), cases);
@@ -158,7 +160,8 @@ TEST_F(SweepCommand, ExpectationsMayChangeOnAFinishedSweep) {
 }
 
 TEST_F(SweepCommand, APointWithoutTheFigureDoesNotMeetIt) {
-  const Outcome outcome = sweep(tiny_sweep(2, "expect: {recovery.e_b_error: {abs_max: 1}}\n"), {"--axis", "calibration.method=[none, heading]"});
+  const Outcome outcome = sweep(tiny_sweep(2, "expect: {recovery.e_b_error: {abs_max: 1}}\n"),
+                                {"--axis", "calibration.method=[none, heading]"});
   EXPECT_EQ(outcome.code, 1);
   expect_says(outcome.out, {"(2 of 4 points)", "calibration.method=none: no value"});
 }
@@ -171,7 +174,8 @@ const char* const kFailing =
 TEST_F(SweepCommand, PointsThatCannotBeDrivenAreResults) {
   const Outcome outcome = sweep(kFailing, {"--junit", "junit.xml"});
   EXPECT_EQ(outcome.code, 3);
-  expect_says(outcome.out, {"1 of 2 points driven, 1 failed", "point 1, effects.encoder_sampling.interval_s=0.8: ", "non-finite"});
+  expect_says(outcome.out,
+              {"1 of 2 points driven, 1 failed", "point 1, effects.encoder_sampling.interval_s=0.8: ", "non-finite"});
   expect_says(text_of(desk_.home / "junit.xml"), {"errors=\"1\"", "<error message=", "non-finite"});
   EXPECT_EQ(json_of(desk_.home / "s/sweep.json").at("failed").size(), 1u);
 }
@@ -183,20 +187,26 @@ TEST_F(SweepCommand, ASweepMayExpectFailures) {
 
 TEST_F(SweepCommand, FailedPointsAreDrivenAgainOnRequest) {
   ASSERT_EQ(sweep(kFailing).code, 3);
-  Database(desk_.home / "s/sweep.sqlite", Database::Mode::write).run("UPDATE points SET error = 'old' WHERE status = 'failed'");
+  Database(desk_.home / "s/sweep.sqlite", Database::Mode::write)
+      .run("UPDATE points SET error = 'old' WHERE status = 'failed'");
   expect_says(sweep(kFailing).out, {": old"});
   expect_says(sweep(kFailing, {"--retry-failed"}).out, {"non-finite"});
 }
 
 TEST_F(SweepCommand, ARunHasExpectationsToo) {
-  desk_.put("expecting.yaml", std::string(kTinyScenario) + "expect:\n  recovery.e_b_error: {abs_max: 1}\n  umbmark.e_max_syst_m: {min: 0.1}\n");
+  desk_.put("expecting.yaml", std::string(kTinyScenario) +
+                                  "expect:\n  recovery.e_b_error: {abs_max: 1}\n  umbmark.e_max_syst_m: {min: 0.1}\n");
   const Outcome outcome = desk_.umbsim({"run", "expecting.yaml", "--out", "r", "--junit", "r.xml"});
   EXPECT_EQ(outcome.code, 1);
   expect_says(outcome.out, {"met      recovery.e_b_error: abs_max 1", "NOT MET  umbmark.e_max_syst_m: min 0.1"});
   expect_says(text_of(desk_.home / "r.xml"), {"testsuite name=\"expecting\"", "failures=\"1\""});
   // The resolved scenario asks for the same.
   EXPECT_EQ(desk_.umbsim({"run", "r/scenario.resolved.yaml", "--out", "again"}).code, 1);
-  EXPECT_EQ(desk_.umbsim({"run", "r/scenario.resolved.yaml", "--out", "met", "--set", "expect.umbmark={}", "--set", "expect={}"}).code, 0);
+  EXPECT_EQ(desk_
+                .umbsim({"run", "r/scenario.resolved.yaml", "--out", "met", "--set", "expect.umbmark={}", "--set",
+                         "expect={}"})
+                .code,
+            0);
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ inline std::string content_of(const fs::path& database_file) {
   for (const std::string& table : tables) {
     if (table == "starts") continue;
     text += "== " + table + "\n";
-    Statement rows = database.prepare("SELECT * FROM " + table + (table == "runs" ? " ORDER BY 1, 4, 2" : " ORDER BY 1"));
+    Statement rows =
+        database.prepare("SELECT * FROM " + table + (table == "runs" ? " ORDER BY 1, 4, 2" : " ORDER BY 1"));
     while (rows.step()) {
       for (int i = 0; i < rows.columns(); ++i) text += text_of_cell(rows.cell(i)) + "|";
       text += "\n";

@@ -36,7 +36,8 @@ TEST(Condition, RefusesWhatIsNone) {
 
 // The same in memory and in SQL, for every operator and every kind of cell.
 TEST(Condition, MeansTheSameInSql) {
-  const std::vector<Cell> cells{{}, std::int64_t(2), 2.0, -1.5, std::int64_t(7), std::string("b"), std::string("7"), std::string("")};
+  const std::vector<Cell> cells{
+      {}, std::int64_t(2), 2.0, -1.5, std::int64_t(7), std::string("b"), std::string("7"), std::string("")};
   const std::vector<Cell> values{std::int64_t(2), 2.0, 6.5, std::string("b"), std::string("a")};
   Database database(":memory:", Database::Mode::write);
   database.run("CREATE TABLE t (\"x.y\")");

@@ -32,7 +32,9 @@ StoredPoint point(std::int64_t number) {
 
 class StoreTest : public testing::Test {
  protected:
-  StoreTest() : folder_(testing::TempDir() + "umbsim_store_" + std::to_string(getpid())) { fs::create_directories(folder_); }
+  StoreTest() : folder_(testing::TempDir() + "umbsim_store_" + std::to_string(getpid())) {
+    fs::create_directories(folder_);
+  }
   ~StoreTest() override { fs::remove_all(folder_); }
   fs::path file(const char* name = "a.sqlite") const { return fs::path(folder_) / name; }
   Store open(const char* name = "a.sqlite", const StoreLayout& layout = kLayout) const {
@@ -99,7 +101,8 @@ TEST_F(StoreTest, ExportsJson) {
   Store store = open();
   store.put(point(0));
   store.put(point(2));
-  const auto json = nlohmann::json::parse(exported(store, {true, {"point", "calibration.method", "a.x_m", "a.y"}, {}, {}}));
+  const auto json =
+      nlohmann::json::parse(exported(store, {true, {"point", "calibration.method", "a.x_m", "a.y"}, {}, {}}));
   EXPECT_EQ(json.at("columns"), (nlohmann::json{"point", "calibration.method", "a.x_m", "a.y"}));
   EXPECT_EQ(json.at("rows")[1], (nlohmann::json{2, "end, \"point\"", 1.0 / 3, nullptr})) << "to the last bit";
 }
@@ -107,7 +110,8 @@ TEST_F(StoreTest, ExportsJson) {
 TEST_F(StoreTest, ExportsWhatFulfilsAllConditions) {
   Store store = open();
   for (std::int64_t i = 0; i < 6; ++i) store.put(point(i));
-  const std::vector<Condition> where{parse_condition("course.side_m > 0.25", ""), parse_condition("calibration.method = heading", "")};
+  const std::vector<Condition> where{parse_condition("course.side_m > 0.25", ""),
+                                     parse_condition("calibration.method = heading", "")};
   EXPECT_EQ(exported(store, {false, {"point"}, where, {}}), "point\n3\n5\n");
   EXPECT_THROW(exported(store, {false, {"points"}, {}, {}}), InputError);
 }

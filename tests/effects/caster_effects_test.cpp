@@ -73,8 +73,8 @@ PhysicsOptions short_steps() {
 }
 
 // Heading per metre at the swivel angle a. The floor pushes the caster across its fork with F = M / L (less where the
-// friction fades): moment (x cos a - L) F about the axle's middle, drag F sin a. Creeping wheels balance both; the caster's
-// place, L sin a off the middle, makes their loads unequal.
+// friction fades): moment (x cos a - L) F about the axle's middle, drag F sin a. Creeping wheels balance both; the
+// caster's place, L sin a off the middle, makes their loads unequal.
 double kick_rate(const RobotModel& robot, double a) {
   const double swivel_per_roll = robot.casters[0].radius_m / kTrail_m * std::abs(std::tan(a));
   const double force_n = std::copysign(std::min(1.0, swivel_per_roll / kFade), a) * kFriction_nm / kTrail_m;
@@ -87,7 +87,8 @@ double kick_rate(const RobotModel& robot, double a) {
   return kCreep / kWheelbase_m * ((half_drag_n + couple_n) / left_n - (half_drag_n - couple_n) / right_n);
 }
 
-// Heading error after `distance_m` of a leg that begins with the swivel angle a. The kick itself swings the caster, too.
+// Heading error after `distance_m` of a leg that begins with the swivel angle a. The kick itself swings the caster,
+// too.
 double kick(const RobotModel& robot, double a, double distance_m) {
   constexpr int kSteps = 5000;
   const double h = distance_m / kSteps;

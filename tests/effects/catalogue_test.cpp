@@ -96,7 +96,8 @@ TEST(Catalogue, EveryEffectAtAPlausibleValueChangesTheRig) {
   const std::vector<double> before = numbers(third_run);
   for (const EffectInfo& info : catalogue()) {
     Effect effect = neutral_effect(info);
-    for (std::size_t i = 0; i < info.parameters.size(); ++i) effect.values.numbers[i] = info.parameters[i].plausible_max;
+    for (std::size_t i = 0; i < info.parameters.size(); ++i)
+      effect.values.numbers[i] = info.parameters[i].plausible_max;
     EXPECT_FALSE(same_bits(numbers(apply_effects({effect}, third_run)), before)) << info.name;
   }
 }

@@ -48,17 +48,18 @@ Row numbers(const std::string& row) {
   Row r;
   const auto* text = row.c_str() + row.find(") |") + 1;
   ReturnError *a = &r.cw, *b = &r.ccw, *c = &r.cw_closed_form, *d = &r.ccw_closed_form;
-  r.numbers = std::sscanf(text, " | (%lf, %lf) %lf | (%lf, %lf) %lf | (%lf, %lf) %lf | (%lf, %lf) %lf |", &a->x_m, &a->y_m,
-                          &a->theta_rad, &b->x_m, &b->y_m, &b->theta_rad, &c->x_m, &c->y_m, &c->theta_rad, &d->x_m,
-                          &d->y_m, &d->theta_rad);
+  r.numbers = std::sscanf(text, " | (%lf, %lf) %lf | (%lf, %lf) %lf | (%lf, %lf) %lf | (%lf, %lf) %lf |", &a->x_m,
+                          &a->y_m, &a->theta_rad, &b->x_m, &b->y_m, &b->theta_rad, &c->x_m, &c->y_m, &c->theta_rad,
+                          &d->x_m, &d->y_m, &d->theta_rad);
   return r;
 }
 
-// Terms of higher order, and what a closed form leaves out: the sink of a soft support under a cable; the sway of an axle
-// on an eccentric wheel.
+// Terms of higher order, and what a closed form leaves out: the sink of a soft support under a cable; the sway of an
+// axle on an eccentric wheel.
 TEST(EffectsPage, FiguresAreThoseOfTheClosedForms) {
   constexpr double kRelative = 0.03, kSmall_mm = 0.2, kSmall_deg = 0.006;
-  const std::map<std::string, double> left_out_mm{{"bump", 0.8}, {"wheel_eccentricity", 1.0}, {"encoder_missed_counts", 3}};
+  const std::map<std::string, double> left_out_mm{
+      {"bump", 0.8}, {"wheel_eccentricity", 1.0}, {"encoder_missed_counts", 3}};
   int compared = 0;
   for (const EffectInfo& info : catalogue()) {
     const Row r = numbers(row(info.name));
@@ -76,10 +77,9 @@ TEST(EffectsPage, FiguresAreThoseOfTheClosedForms) {
 }
 
 TEST(EffectsPage, FiguresAreThoseOfAFreshRun) {
-  for (const char* name :
-       {"wheel_radius_scale", "wheel_radius_difference", "wheelbase", "wheel_misalignment", "wheel_eccentricity", "load_shift",
-        "backlash", "encoder_latency", "tyre_compliance", "contact_patch", "caster_drag", "bump", "floor_slope",
-        "carpet_drift"}) {
+  for (const char* name : {"wheel_radius_scale", "wheel_radius_difference", "wheelbase", "wheel_misalignment",
+                           "wheel_eccentricity", "load_shift", "backlash", "encoder_latency", "tyre_compliance",
+                           "contact_patch", "caster_drag", "bump", "floor_slope", "carpet_drift"}) {
     const Row shown = numbers(row(name));
     const ReturnError &cw = shown.cw, &ccw = shown.ccw;
     ASSERT_GE(shown.numbers, 6) << row(name);

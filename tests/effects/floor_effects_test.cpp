@@ -121,7 +121,8 @@ TEST(CarpetDrift, IsTheSameVectorBothWaysRound) {
 }
 
 // The closed form of a round cable, with the wheel's sink under its load taken off the height.
-// On an arc the wheels roll at different speeds. The carpet carries the robot by the mean of both, and does not turn it.
+// On an arc the wheels roll at different speeds. The carpet carries the robot by the mean of both, and does not turn
+// it.
 TEST(CarpetDrift, CarriesTheRobotOnAnArcToo) {
   constexpr double kDrift = 0.004, kDirection = 0.8, kMobility = 1e-7;
   for (const double turn_radps : {0.3, -0.5}) {

@@ -82,8 +82,9 @@ TEST(TenCables, SaysWhereTheWheelCannotClimb) {
     const char *friction, *speed_mps;
     bool grip, over;
   };
-  for (const Case& c : {Case{"0.9", "0.2", true, true}, Case{"0.56", "0.05", true, true}, Case{"0.54", "0.2", false, true},
-                        Case{"0.3", "0.2", false, true}, Case{"0.3", "0.05", false, false}}) {
+  for (const Case& c :
+       {Case{"0.9", "0.2", true, true}, Case{"0.56", "0.05", true, true}, Case{"0.54", "0.2", false, true},
+        Case{"0.3", "0.2", false, true}, Case{"0.3", "0.05", false, false}}) {
     const ExperimentResult r = run_experiment(shipped("extended_umbmark", three_cables(c.friction, c.speed_mps)), 0);
     const double each_deg = degrees(r.extended->per_bump_heading_error_rad);
     std::cout << fmt::format("friction {}, {} m/s: {} not crossed, {} without grip, {:.3f} deg per cable\n", c.friction,

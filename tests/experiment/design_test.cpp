@@ -36,12 +36,13 @@ TEST(LatinHypercube, AxesAndSeedsDiffer) {
 
 // The first points of Sobol's sequence in two dimensions (Bratley & Fox 1988).
 TEST(Sobol, BeginsAsPublished) {
-  const std::vector<double> expected{0.5, 0.5, 0.75, 0.25, 0.25, 0.75, 0.375, 0.375, 0.875, 0.875, 0.625, 0.125, 0.125, 0.625};
+  const std::vector<double> expected{0.5,   0.5,   0.75,  0.25,  0.25,  0.75,  0.375,
+                                     0.375, 0.875, 0.875, 0.625, 0.125, 0.125, 0.625};
   EXPECT_EQ(sobol(7, 2), expected);
 }
 
-// Its property: of 2^k - 1 points after the origin, every elementary interval holds its share. With the origin, each of the
-// 4 x 4 cells of any two of the first axes holds 16 of 256 points.
+// Its property: of 2^k - 1 points after the origin, every elementary interval holds its share. With the origin, each of
+// the 4 x 4 cells of any two of the first axes holds 16 of 256 points.
 TEST(Sobol, FillsCellsEvenly) {
   const std::vector<double> shares = sobol(255, 3);
   for (const auto& [a, b] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 2}}) {

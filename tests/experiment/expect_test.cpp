@@ -41,7 +41,9 @@ TEST(Expect, PointsOutsideTheConditionDoNotCount) {
 }
 
 // An expectation that looks at no point at all is a mistake, not a success.
-TEST(Expect, NoPointInTheConditionIsNotMet) { EXPECT_EQ(checked("{max: 1, where: course.side_m > 7}", {0.0}).unmet, 1); }
+TEST(Expect, NoPointInTheConditionIsNotMet) {
+  EXPECT_EQ(checked("{max: 1, where: course.side_m > 7}", {0.0}).unmet, 1);
+}
 
 // NumPy: quantile([1, 2, 3, 4, 10], 0.9) = 7.6 and quantile(abs, 0.5) = 3.
 TEST(Expect, QuantilesAreThoseOfNumpy) {
@@ -55,7 +57,8 @@ TEST(Expect, QuantilesAreThoseOfNumpy) {
 TEST(Expect, AFailedPointMeetsNoExpectationAndSpoilsAQuantile) {
   FigureTable t = table({1.0, Cell{}});
   t.rows[1].error = "non-finite";
-  const auto checks = check(read("{umbmark.e_max_syst_m: [{max: 5}, {max: 5, quantile: 0.5}], failed_points: {max: 1}}"), t);
+  const auto checks =
+      check(read("{umbmark.e_max_syst_m: [{max: 5}, {max: 5, quantile: 0.5}], failed_points: {max: 1}}"), t);
   EXPECT_EQ(checks[0].unmet, 1);
   EXPECT_EQ(checks[1].unmet, 1);
   EXPECT_EQ(checks[2].unmet, 0);

@@ -55,7 +55,9 @@ TEST(Explain, SmallEffectsAddUp) {
     EXPECT_LT(first, 0.05 * whole.whole.at(d).distance_m());
     EXPECT_NEAR(first / second, 4, 0.2) << "of second order";
   }
-  const auto heading = [&](int effect, Direction d) { return whole.effects[std::size_t(effect)].alone.at(d).heading_rad; };
+  const auto heading = [&](int effect, Direction d) {
+    return whole.effects[std::size_t(effect)].alone.at(d).heading_rad;
+  };
   for (int i = 0; i < 2; ++i) {
     const bool wheelbase = whole.effects[std::size_t(i)].name == "wheelbase";
     const double sign = wheelbase ? -1 : 1, turn = heading(i, Direction::cw);

@@ -98,7 +98,8 @@ TEST(PlannedRuns, CoarseEncodersCountInStepsOfTheUnitThatIsBelieved) {
 }
 
 TEST(PlannedRuns, AFasterRobotIsRecordedAsLong) {
-  const Recording plain = drive(), fast = drive({"effects.over_acceleration.factor=10", "effects.fast_turning.factor=2"});
+  const Recording plain = drive(),
+                  fast = drive({"effects.over_acceleration.factor=10", "effects.fast_turning.factor=2"});
   for (std::size_t i = 0; i < plain.runs.size(); ++i) {
     ASSERT_EQ(plain.runs[i].encoders.size(), fast.runs[i].encoders.size());
     ASSERT_EQ(plain.runs[i].truth.size(), fast.runs[i].truth.size());

@@ -56,8 +56,9 @@ TEST_F(SweepFile, PointsOfAGridCombineAllValues) {
 }
 
 TEST_F(SweepFile, SampledRangesAreCrossedWithLists) {
-  const Sweep sweep = read("design: sobol\nsamples: 3\naxes:\n  course.side_m: {from: 1, to: 9}\n"
-                           "  calibration.method: [endpoint, heading]\n  course.laps: {from: 1, to: 4, integer: true}\n");
+  const Sweep sweep = read(
+      "design: sobol\nsamples: 3\naxes:\n  course.side_m: {from: 1, to: 9}\n"
+      "  calibration.method: [endpoint, heading]\n  course.laps: {from: 1, to: 4, integer: true}\n");
   ASSERT_EQ(sweep.points, 6);
   EXPECT_EQ(label(sweep, sweep_point(sweep, 0)), "course.side_m=5, calibration.method=endpoint, course.laps=3");
   EXPECT_EQ(label(sweep, sweep_point(sweep, 1)), "course.side_m=5, calibration.method=heading, course.laps=3");
@@ -65,15 +66,17 @@ TEST_F(SweepFile, SampledRangesAreCrossedWithLists) {
 }
 
 TEST_F(SweepFile, SampledIntegersAreEquallyOften) {
-  const Sweep sweep = read("design: latin_hypercube\nsamples: 400\naxes: {course.laps: {from: 2, to: 5, integer: true}}\n");
+  const Sweep sweep =
+      read("design: latin_hypercube\nsamples: 400\naxes: {course.laps: {from: 2, to: 5, integer: true}}\n");
   std::map<std::string, int> counts;
   for (std::int64_t i = 0; i < sweep.points; ++i) ++counts[sweep_point(sweep, i).values[0].yaml];
   EXPECT_EQ(counts, (std::map<std::string, int>{{"2", 100}, {"3", 100}, {"4", 100}, {"5", 100}}));
 }
 
 TEST_F(SweepFile, APointIsTheScenarioWithItsValues) {
-  const Sweep sweep = read("set: {course.side_m: 3}\naxes:\n  effects.wheelbase.relative: [0.01]\n  robot: [optiodom.urdf]\n"
-                           "  noise: [{radius_scatter: 0.001}]\nreplicates: 2\n");
+  const Sweep sweep = read(
+      "set: {course.side_m: 3}\naxes:\n  effects.wheelbase.relative: [0.01]\n  robot: [optiodom.urdf]\n"
+      "  noise: [{radius_scatter: 0.001}]\nreplicates: 2\n");
   const Scenario s = scenario_of(sweep, sweep_point(sweep, 1));
   EXPECT_EQ(s.course.side_m, 3);
   EXPECT_EQ(s.robot.urdf, "optiodom.urdf");
@@ -86,10 +89,13 @@ TEST_F(SweepFile, APointIsTheScenarioWithItsValues) {
 TEST_F(SweepFile, WhatDoesNotChangeResultsIsNoPartOfTheDefinition) {
   const std::string axes = "axes: {course.side_m: [1, 2]}\n";
   const std::string definition = read(axes).definition;
-  EXPECT_EQ(read(axes + "name: other\ndescription: other\nexpect: {failed_points: {max: 0}}\nreport: {x: course.side_m}\n").definition,
-            definition);
-  for (const char* other : {"axes: {course.side_m: [1, 3]}\n", "axes: {course.side_m: [1, 2]}\nreplicates: 2\n",
-                            "axes: {course.side_m: [1, 2]}\nseeds: own\n", "axes: {course.side_m: [1, 2]}\nset: {seed: 6}\n"}) {
+  EXPECT_EQ(
+      read(axes + "name: other\ndescription: other\nexpect: {failed_points: {max: 0}}\nreport: {x: course.side_m}\n")
+          .definition,
+      definition);
+  for (const char* other :
+       {"axes: {course.side_m: [1, 3]}\n", "axes: {course.side_m: [1, 2]}\nreplicates: 2\n",
+        "axes: {course.side_m: [1, 2]}\nseeds: own\n", "axes: {course.side_m: [1, 2]}\nset: {seed: 6}\n"}) {
     EXPECT_NE(read(other).definition, definition) << other;
   }
 }
@@ -115,7 +121,8 @@ TEST(Figures, KnowEveryNumberOfTheSummary) {
       EXPECT_TRUE(known.count(key)) << key << " of summary.json is not among the figures: see complete_result()";
       ++numbers;
     }
-    EXPECT_EQ(std::count_if(figures.begin(), figures.end(), [](const Cell& c) { return is_number(c); }), std::ptrdiff_t(numbers));
+    EXPECT_EQ(std::count_if(figures.begin(), figures.end(), [](const Cell& c) { return is_number(c); }),
+              std::ptrdiff_t(numbers));
   }
 }
 

@@ -126,7 +126,8 @@ TEST(Loads, AreThoseOfStatics) {
 TEST(Rolling, IsRadiusTimesAngle) {
   constexpr double kOff_m = 1e-6, kOff_rad = 1e-7;  // contact creep
   for (const RobotModel& robot : robots()) {
-    for (const auto& [left, right] : {std::pair{2.0, 2.0}, std::pair{1.9, 2.1}, std::pair{0.5, 2.0}, std::pair{-1.5, 1.5}}) {
+    for (const auto& [left, right] :
+         {std::pair{2.0, 2.0}, std::pair{1.9, 2.1}, std::pair{0.5, 2.0}, std::pair{-1.5, 1.5}}) {
       const RollingCheck c = roll(robot, left, right, {});
       EXPECT_LT(c.off_m, kOff_m) << robot.name << " " << left << " " << right;
       EXPECT_NEAR(c.off_rad, 0, kOff_rad);

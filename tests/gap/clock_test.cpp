@@ -31,7 +31,8 @@ TEST(Clock, OffsetAndRateAreFound) {
   const Recording r = stamped(0.12, -0.002);
   for (const RecordedRun& run : r.runs) {
     const ClockFit fit = fit_clock(run, r.robot);
-    fmt::print("{}: offset {:.4f} +- {:.4f} s, rate {:.5f} +- {:.5f}\n", run.id, fit.offset_s, fit.offset_sd_s, fit.rate, fit.rate_sd);
+    fmt::print("{}: offset {:.4f} +- {:.4f} s, rate {:.5f} +- {:.5f}\n", run.id, fit.offset_s, fit.offset_sd_s,
+               fit.rate, fit.rate_sd);
     EXPECT_NEAR(fit.offset_s, 0.12, kOffset_s);
     EXPECT_NEAR(fit.rate, -0.002, kRate);
   }

@@ -11,14 +11,15 @@ const Eigen::Vector2d kMax(10, 10);
 double hill(const Eigen::VectorXd& x) { return -std::abs(x[0] - 1.3) - 2 * std::abs(x[1] + 0.7); }
 
 TEST(PatternSearch, ClimbsAHillWithoutDerivatives) {
-  const Eigen::VectorXd top = pattern_search(hill, Eigen::Vector2d(0, 0), Eigen::Vector2d(0.5, 0.5), kMin, kMax, 6, 200);
+  const Eigen::VectorXd top =
+      pattern_search(hill, Eigen::Vector2d(0, 0), Eigen::Vector2d(0.5, 0.5), kMin, kMax, 6, 200);
   EXPECT_NEAR(top[0], 1.3, 0.02);
   EXPECT_NEAR(top[1], -0.7, 0.02);
 }
 
 TEST(PatternSearch, StaysInsideItsBounds) {
-  const Eigen::VectorXd top = pattern_search([](const Eigen::VectorXd& x) { return x[0] + x[1]; }, Eigen::Vector2d(0, 0),
-                                             Eigen::Vector2d(3, 3), kMin, kMax, 2, 200);
+  const Eigen::VectorXd top = pattern_search([](const Eigen::VectorXd& x) { return x[0] + x[1]; },
+                                             Eigen::Vector2d(0, 0), Eigen::Vector2d(3, 3), kMin, kMax, 2, 200);
   EXPECT_EQ(top, kMax);
 }
 

@@ -59,10 +59,12 @@ struct Subject {
 };
 
 constexpr double kAlike = 0.1;  // of PlanOptions
-// Soft tyres and missed counts act as wheels that are too small, never as wheels that are too large. Of two effects with one
-// signature the one with the narrower prior wins always: of the wheels too small one way, which are half of them.
+// Soft tyres and missed counts act as wheels that are too small, never as wheels that are too large. Of two effects
+// with one signature the one with the narrower prior wins always: of the wheels too small one way, which are half of
+// them.
 constexpr double kOneSignature = 0.25;
-constexpr double kSamplingError = 0.05;  // four standard errors of a quarter over 400 draws, halved by the mean, and the noise
+constexpr double kSamplingError =
+    0.05;  // four standard errors of a quarter over 400 draws, halved by the mean, and the noise
 
 TEST(Plan, PlainSquaresDoNotTellSoftTyresFromSmallWheelsAndAPayloadDoes) {
   EXPECT_NEAR(Subject(driven({"plain"})).alike("tyre_compliance", "wheel_radius_scale"), kOneSignature, kSamplingError);

@@ -26,7 +26,9 @@ TEST(PredictionError, AFrameThatIsTurnedAndMovedCostsNothing) {
   EXPECT_NEAR(e.final_mm, 0, 1e-9);
   EXPECT_NEAR(e.along_mm, 0, 1e-9);
   EXPECT_NEAR(e.frame_deg, 0.4, 1e-9);
-  EXPECT_NEAR(e.raw_final_mm, 1000 * std::hypot(truth.back().x_m - predicted.back().x_m, truth.back().y_m - predicted.back().y_m), 1e-9);
+  EXPECT_NEAR(e.raw_final_mm,
+              1000 * std::hypot(truth.back().x_m - predicted.back().x_m, truth.back().y_m - predicted.back().y_m),
+              1e-9);
 }
 
 // Two points that part by d: the best motion leaves half of it at each end.

@@ -17,7 +17,8 @@ using testing::squares;
 
 double distance_m(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 
-/// Distances from the truth, the largest of all runs, of the replay with and without the effects that it was driven under.
+/// Distances from the truth, the largest of all runs, of the replay with and without the effects that it was driven
+/// under.
 struct Distances {
   double way_m = 0;          ///< anywhere, with the effects
   double end_m = 0;          ///< at the end, where the robot stands, with the effects
@@ -43,8 +44,8 @@ Distances distances(const Scenario& scenario) {
   return d;
 }
 
-/// Half of a control period of 20 ms at 0.3 m/s: the replay asks for speeds at the samples, where the driver's steps hold
-/// each for a whole period. Gone wherever the robot stands.
+/// Half of a control period of 20 ms at 0.3 m/s: the replay asks for speeds at the samples, where the driver's steps
+/// hold each for a whole period. Gone wherever the robot stands.
 constexpr double kHalfPeriod_m = 0.010 * 0.3;
 /// Of an 8 m square, at its end.
 constexpr double kEnd_m = 0.1e-3;
@@ -65,7 +66,8 @@ TEST_P(ReplayOfTicks, EndsWhereTheRobotWas) {
   s.effects = GetParam().effects;
   const Distances d = distances(s);
   std::cout << fmt::format("{}: {:.3f} mm on the way, {:.3f} mm at the end; without the effect {:.3f} and {:.3f} mm\n",
-                           GetParam().name, 1000 * d.way_m, 1000 * d.end_m, 1000 * d.way_without_m, 1000 * d.end_without_m);
+                           GetParam().name, 1000 * d.way_m, 1000 * d.end_m, 1000 * d.way_without_m,
+                           1000 * d.end_without_m);
   EXPECT_LT(d.end_m, kEnd_m + GetParam().share * d.end_without_m);
   EXPECT_LT(d.way_m, kHalfPeriod_m + 2 * kEnd_m + GetParam().share * d.way_without_m);
   // Where there is an effect, the replay without it must miss: the test can fail.
@@ -84,7 +86,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"carpet_drift", {effect("carpet_drift", {{"metres_per_metre", 0.004}, {"direction_rad", 0.8}})}},
         Case{"bump", {effect("bump", {{"height_m", 0.006}, {"x_m", 1}, {"y_m", -0.17}})}, kEvent},
         Case{"tyre_compliance", {effect("tyre_compliance", {{"metres_per_newton", 2e-6}})}},
-        Case{"push", {effect("push", {{"leg", 2}, {"seconds_into_leg", 3}, {"impulse_newton_seconds", 30}}, "cw-1")}, kEvent},
+        Case{"push",
+             {effect("push", {{"leg", 2}, {"seconds_into_leg", 3}, {"impulse_newton_seconds", 30}}, "cw-1")},
+             kEvent},
         Case{"encoder_missed_counts", {effect("encoder_missed_counts", {{"right_probability", 0.004}})}, kInTheMean},
         Case{"encoder_latency", {effect("encoder_latency", {{"seconds", 0.1}})}, kInTheMean}),
     [](const auto& test) { return std::string(test.param.name); });

@@ -35,9 +35,10 @@ std::vector<double> rolled(const std::vector<Pose2>& path) {
   return result;
 }
 
-/// The robot as it would go: small random motions at every step, composed exactly, and a tracker that sees it with noise.
-/// Nothing of the filter is used.
-std::vector<Pose2> noisy_drive(const std::vector<Pose2>& path, const std::vector<double>& rolled_m, std::uint64_t seed) {
+/// The robot as it would go: small random motions at every step, composed exactly, and a tracker that sees it with
+/// noise. Nothing of the filter is used.
+std::vector<Pose2> noisy_drive(const std::vector<Pose2>& path, const std::vector<double>& rolled_m,
+                               std::uint64_t seed) {
   RandomStream random(seed, "drive");
   Pose2 at = path[0] * Pose2{random.normal(0, 0.01), random.normal(0, 0.01), random.normal(0, 0.01)};
   std::vector<Pose2> seen;

@@ -55,8 +55,8 @@ PoseCovariance driven(double left_m, double right_m, const PathNoise& noise, int
   return P;
 }
 
-// White noise of both wheels along a straight of length s: along k^2 s / 2, heading 2 k^2 s / b^2, and across its integral
-// 2 k^2 s^3 / (3 b^2): the ellipse grows fastest across.
+// White noise of both wheels along a straight of length s: along k^2 s / 2, heading 2 k^2 s / b^2, and across its
+// integral 2 k^2 s^3 / (3 b^2): the ellipse grows fastest across.
 TEST(Covariance, OfAStraightIsTheClosedForm) {
   const double k = 0.0005, s = 3;
   constexpr int kSteps = 10000;

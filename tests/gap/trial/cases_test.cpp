@@ -18,7 +18,8 @@ TrialPlan large_plan() {
 
 std::vector<TrialCase> of_tier(const std::vector<TrialCase>& cases, Tier tier) {
   std::vector<TrialCase> chosen;
-  std::copy_if(cases.begin(), cases.end(), std::back_inserter(chosen), [&](const TrialCase& c) { return c.tier == tier; });
+  std::copy_if(cases.begin(), cases.end(), std::back_inserter(chosen),
+               [&](const TrialCase& c) { return c.tier == tier; });
   return chosen;
 }
 

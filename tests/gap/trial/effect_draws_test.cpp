@@ -73,7 +73,8 @@ TEST(Places, ABumpLiesOnAWheelsTrackAndAcrossIt) {
     const Effect bump = draw_effect(find_effect("bump"), platform, plan.runs, random).at(0.005);
     const double x = value(bump, "x_m"), y = std::abs(value(bump, "y_m"));  // cw is ccw mirrored
     const bool along_x = std::abs(std::sin(value(bump, "direction_rad"))) > 0.5;
-    const double beside = along_x ? std::min(std::abs(y), std::abs(y - side)) : std::min(std::abs(x), std::abs(x - side));
+    const double beside =
+        along_x ? std::min(std::abs(y), std::abs(y - side)) : std::min(std::abs(x), std::abs(x - side));
     EXPECT_NEAR(beside, half, kRoundOff);
     const double along = along_x ? x : y;
     EXPECT_GE(along, 0.15 * side - kRoundOff);

@@ -33,7 +33,8 @@ TEST(MetadataLeak, NoiseIsGuessedAtChance) {
 // The test of the test: one feature of six, in units of its own, tells the label most of the time.
 TEST(MetadataLeak, APlantedLeakIsFound) {
   auto features = noise_features();
-  for (int i = 0; i < kCases; ++i) features[std::size_t(i)][3] = 1e6 * (i % kLabels) + 1e5 * features[std::size_t(i)][3];
+  for (int i = 0; i < kCases; ++i)
+    features[std::size_t(i)][3] = 1e6 * (i % kLabels) + 1e5 * features[std::size_t(i)][3];
   const LeakFigure leak = metadata_leak(features, labels());
   EXPECT_GT(leak.accuracy, 2.0 / kLabels);
   EXPECT_LT(leak.p_value, kSurely);
@@ -45,7 +46,8 @@ TEST(MetadataLeak, SeesSizesRowsNamesAndTimes) {
     folder.write(name + "/runs/cw-1/encoders.csv", rows);
     folder.write(name + "/recording.yaml", "format");
     const auto time = fs::file_time_type::clock::now() + std::chrono::hours(hours);
-    for (const auto& entry : fs::recursive_directory_iterator(folder.path / name)) fs::last_write_time(entry.path(), time);
+    for (const auto& entry : fs::recursive_directory_iterator(folder.path / name))
+      fs::last_write_time(entry.path(), time);
     fs::last_write_time(folder.path / name, time);
     return metadata(folder.path / name);
   };

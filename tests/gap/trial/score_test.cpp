@@ -10,7 +10,8 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string diagnosis(const std::string& cause, double probability, const std::string& set, const std::string& more = "") {
+std::string diagnosis(const std::string& cause, double probability, const std::string& set,
+                      const std::string& more = "") {
   return R"({"format":"umbsim-diagnosis/1","gap":{"detected":true},"causes":[{"effects":{)" + cause +
          R"(},"probability":)" + std::to_string(probability) + R"(}],"set":[)" + set + "]" + more + "}";
 }
@@ -39,7 +40,8 @@ class HandMade {
 
 const std::string kWheelbase =
     R"({"effects":{"wheelbase":{"relative":0.01}},"severities":{"wheelbase":{"severity":3}}})";
-const std::string kBump = R"({"effects":{"bump":{"height_m":0.006,"x_m":2,"y_m":0}},"severities":{"bump":{"severity":0.7}}})";
+const std::string kBump =
+    R"({"effects":{"bump":{"height_m":0.006,"x_m":2,"y_m":0}},"severities":{"bump":{"severity":0.7}}})";
 const std::string kRightWheelbase = diagnosis(R"("wheelbase":{"relative":{"value":0.011,"ci95":[0.009,0.013]}})", 0.95,
                                               R"("wheelbase")", R"(,"closure":{"held_out_fraction":0.96})");
 
@@ -180,7 +182,8 @@ TEST(Score, WhatIsMissingIsNamed) {
   HandMade lacking;
   lacking.add("a1", kWheelbase, kRightWheelbase);
   lacking.score();
-  const fs::path other = lacking.folder.write("other.yaml", "format: umbsim-trial-answers/1\ncases: {b: {effects: {}}}\n");
+  const fs::path other =
+      lacking.folder.write("other.yaml", "format: umbsim-trial-answers/1\ncases: {b: {effects: {}}}\n");
   fs::remove(lacking.trial().seal());
   EXPECT_THROW(score_trial(lacking.trial(), other), InputError);
 }

@@ -67,7 +67,8 @@ TEST(Severity, AmplitudesAreFoundForWhatIsDrawn) {
 
 TEST(Severity, ANoisierRecordingNeedsAStrongerEffect) {
   const Bench bench;
-  const ScaledEffect quiet = bench.scaled(bench.draw("wheelbase"), 2, 1), noisy = bench.scaled(bench.draw("wheelbase"), 2, 3);
+  const ScaledEffect quiet = bench.scaled(bench.draw("wheelbase"), 2, 1),
+                     noisy = bench.scaled(bench.draw("wheelbase"), 2, 3);
   EXPECT_NEAR(strength({noisy.effect}) / strength({quiet.effect}), 3, 3 * 2 * kNear);
 }
 
