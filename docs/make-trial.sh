@@ -12,7 +12,7 @@ umbsim=${UMBSIM:-$root/umbsim}   # another build of the program
 "$umbsim" gap trial score "$folder" > /dev/null
 kept="$root/results/reference/trial"
 mkdir -p "$kept"
-for file in summary.json summary.md table.txt confusion.csv confusion.svg; do cp "$folder/score/$file" "$kept/"; done
+for file in summary.json summary.md table.txt confusion.csv confusion.svg provenance.json; do cp "$folder/score/$file" "$kept/"; done
 cp "$folder/answers.sha256" "$folder/answers.json" "$kept/"
 
 page="$root/docs/trial.md"
