@@ -49,7 +49,6 @@ gap::Simulator gap_simulator(const Replay& replay) {
 
 gap::Simulator cached_gap_simulator(const Replay& replay, bool no_cache) {
   gap::CacheChoice choice;
-  choice.max_memory_bytes = 0;  // gap/remembered.h keeps what is asked for again
   std::string known;
   try {
     if (!no_cache) choice.folder = gap::user_cache_folder();

@@ -17,16 +17,14 @@ struct Thresholds {
   double addition = 10;     ///< log evidence that a further effect needs,
   double addition_share = 0.015;  ///< and the same as a share of what the others gained,
   double misfit_share = 0.2;     ///< and of the excess of the residual that the others leave
-  double smallest =
-      0.25;  ///< displacement, in noise floors, below which an effect is no gap but a difference of engines
-  double noise_error =
-      0.1;  ///< a misfit larger by this share is no news: three sd of estimates from two pairs of repeats
-  double least_seen = 0.15; ///< nor below this share of the noise of single readings,
+  double smallest = 0.25;   ///< displacement, in noise floors, below which an effect is a difference of engines,
+  double least_seen = 0.15; ///< if it is also below this share of the noise of single readings
+  double smallest_addition = 0.5; ///< as `smallest`, of a further effect
+  double noise_error = 0.1; ///< a misfit larger by this share is no news: three sd of two pairs of repeats
   double tie = 6;           ///< log evidence within which two explanations are not told apart
   double known_share = 0.9; ///< of the explainable evidence that named effects must explain, or the cause is unknown
   double least_closure = 0.3; ///< that the held-out closure's interval must reach, where something is left
   double misfit_left = 0.5; ///< of the misfit beyond the noise, above which the cause is unknown, too
-  double smallest_addition = 0.5; ///< as `smallest`, of a further effect
   int most_effects = 3;
 };
 

@@ -56,4 +56,9 @@ RunGram integrated_out(const Eigen::MatrixXd& products, int first, const Eigen::
   return gram;
 }
 
+double log_normal_cdf(double x) {
+  if (x > -6) return std::log(0.5 * std::erfc(-x / M_SQRT2));
+  return -0.5 * x * x - std::log(-x * std::sqrt(2 * M_PI));
+}
+
 }  // namespace umbsim::gap

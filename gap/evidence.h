@@ -31,4 +31,7 @@ Evidence evidence(const std::vector<RunGram>& grams, const std::vector<std::size
 /// Integrates the columns from `first` on out of the products, with a prior standard deviation for each.
 RunGram integrated_out(const Eigen::MatrixXd& products, int first, const Eigen::VectorXd& prior_sd);
 
+/// log of the standard normal's distribution function, also far below zero.
+double log_normal_cdf(double x);
+
 }  // namespace umbsim::gap

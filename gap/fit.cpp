@@ -42,12 +42,6 @@ Eigen::VectorXd shifted(const Eigen::VectorXd& sd, const Eigen::VectorXd& p) {
   return shift;
 }
 
-// log of the standard normal's distribution function, also far below zero.
-double log_normal_cdf(double x) {
-  if (x > -6) return std::log(0.5 * std::erfc(-x / M_SQRT2));
-  return -0.5 * x * x - std::log(-x * std::sqrt(2 * M_PI));
-}
-
 }  // namespace
 
 double Model::log_evidence(const Fit& fit, const std::vector<std::size_t>& runs) const {

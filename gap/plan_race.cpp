@@ -13,12 +13,6 @@
 namespace umbsim::gap {
 namespace {
 
-// log of the standard normal's distribution function, also far below zero.
-double log_normal_cdf(double x) {
-  if (x > -6) return std::log(0.5 * std::erfc(-x / M_SQRT2));
-  return -0.5 * x * x - std::log(-x * std::sqrt(2 * M_PI));
-}
-
 // A family's evidence for data that come as X' C^-1 y, prepared once (gap/evidence.h, with the nuisances inside C).
 class Racer {
  public:

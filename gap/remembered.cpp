@@ -34,16 +34,6 @@ bool felt(const RecordedRun& run, double wheelbase_m, bool tracked, const Effect
   return false;
 }
 
-// Everything that a run's simulation depends on, as bytes.
-std::string key_of(std::size_t run, const std::vector<Effect>& effects) {
-  std::string key = std::to_string(run);
-  for (const Effect& e : effects) {
-    key += '\n' + e.info->name + '\t' + e.values.run + '\t';
-    key.append(reinterpret_cast<const char*>(e.values.numbers.data()), e.values.numbers.size() * sizeof(double));
-  }
-  return key;
-}
-
 template <class Result>
 class Memory {
  public:
@@ -78,11 +68,20 @@ auto with_memory(const Call& call, const Felt& felt_in) {
     for (const Effect& e : all) {
       if (felt_in(run, e)) effects.push_back(e);
     }
-    return memory->get(key_of(run, effects), [&] { return call(run, effects); });
+    return memory->get(std::to_string(run) + '\n' + bytes_of(effects), [&] { return call(run, effects); });
   };
 }
 
 }  // namespace
+
+std::string bytes_of(const std::vector<Effect>& effects) {
+  std::string bytes;
+  for (const Effect& e : effects) {
+    bytes += e.info->name + '\0' + e.values.run + '\0';
+    bytes.append(reinterpret_cast<const char*>(e.values.numbers.data()), e.values.numbers.size() * sizeof(double));
+  }
+  return bytes;
+}
 
 Simulator remembered(Simulator simulator, const Recording& recording) {
   const auto felt_in = [&recording](std::size_t run, const Effect& effect) {

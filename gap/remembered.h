@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "gap/simulator.h"
 #include "recording/recording.h"
 
@@ -9,5 +12,8 @@ namespace umbsim::gap {
 /// where a screen ended, and its steps come back as the next fit's start. Effects at a place where a run never came, or
 /// of another run, are left out: they change nothing. Safe to call from several threads.
 Simulator remembered(Simulator simulator, const Recording& recording);
+
+/// Effects with their values as bytes: equal for equal effects alone.
+std::string bytes_of(const std::vector<Effect>& effects);
 
 }  // namespace umbsim::gap

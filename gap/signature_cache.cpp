@@ -2,12 +2,11 @@
 
 #include <cstdlib>
 #include <cstring>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "core/sha256.h"
+#include "gap/remembered.h"
 #include "gap/signature_files.h"
 
 namespace umbsim::gap {
@@ -57,22 +56,11 @@ std::string run_hash(const Recording& recording, const RecordedRun& run, std::si
   return b.hash();
 }
 
-std::string effects_bytes(const std::vector<Effect>& effects) {
-  std::string text;
-  for (const Effect& e : effects) {
-    text += e.info->name + '\0' + e.values.run + '\0';
-    for (const double number : e.values.numbers) {
-      text.append(reinterpret_cast<const char*>(&number), sizeof number);
-    }
-  }
-  return text;
-}
-
-// What is known of one recording, in memory and in files.
+// What is known of one recording.
 class Store {
  public:
   Store(Simulator simulator, const Recording& recording, const std::string& identity, const CacheChoice& choice)
-      : simulator_(std::move(simulator)), max_memory_bytes_(choice.max_memory_bytes) {
+      : simulator_(std::move(simulator)) {
     if (choice.folder) files_.emplace(*choice.folder, choice.max_bytes);
     for (std::size_t r = 0; r < recording.runs.size(); ++r) {
       run_.push_back(sha256(identity + run_hash(recording, recording.runs[r], r)));
@@ -81,37 +69,20 @@ class Store {
 
   template <class Work>
   std::vector<double> known(const char* kind, std::size_t run, const std::vector<Effect>& effects, const Work& work) {
-    const std::string key = sha256(run_[run] + kind + '\0' + effects_bytes(effects));
-    {
-      const std::lock_guard lock(mutex_);
-      const auto found = memory_.find(key);
-      if (found != memory_.end()) return found->second;
-    }
-    if (files_) {
-      if (auto numbers = files_->read(key)) return remember(key, std::move(*numbers));
-    }
+    if (!files_) return work();
+    const std::string key = sha256(run_[run] + kind + '\0' + bytes_of(effects));
+    if (auto numbers = files_->read(key)) return std::move(*numbers);
     std::vector<double> numbers = work();
-    if (files_) files_->write(key, numbers);
-    return remember(key, std::move(numbers));
+    files_->write(key, numbers);
+    return numbers;
   }
 
   const Simulator& simulator() const { return simulator_; }
 
  private:
-  std::vector<double> remember(const std::string& key, std::vector<double> numbers) {
-    const std::lock_guard lock(mutex_);
-    const std::uint64_t bytes = numbers.size() * sizeof(double);
-    if (memory_bytes_ + bytes <= max_memory_bytes_ && memory_.try_emplace(key, numbers).second) memory_bytes_ += bytes;
-    return numbers;
-  }
-
   Simulator simulator_;
   std::optional<SignatureFiles> files_;
   std::vector<std::string> run_;  // hash of everything but effects, by run
-  std::mutex mutex_;
-  std::map<std::string, std::vector<double>> memory_;
-  std::uint64_t memory_bytes_ = 0;
-  std::uint64_t max_memory_bytes_;
 };
 
 std::vector<Pose2> cached_ticks(Store& store, std::size_t run, const std::vector<Effect>& effects) {

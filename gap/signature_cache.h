@@ -12,15 +12,15 @@ namespace umbsim::gap {
 
 /// Where simulated tracks are kept from one call of the program to the next.
 struct CacheChoice {
-  std::optional<std::filesystem::path> folder;  ///< none: only in memory, for as long as the program runs
+  std::optional<std::filesystem::path> folder;  ///< none: nothing is kept
   std::uint64_t max_bytes = 1ull << 30;         ///< of all files together; the oldest go first
-  std::uint64_t max_memory_bytes = 256ull << 20;
 };
 
 /// $XDG_CACHE_HOME/umbsim/signatures, else ~/.cache/umbsim/signatures; none without either.
 std::optional<std::filesystem::path> user_cache_folder();
 
-/// The same simulator, which simulates nothing twice. What it returns is the same bytes as without.
+/// The same simulator, which reads what an earlier call of the program simulated (within one, gap/remembered.h does). What
+/// it returns is the same bytes as without.
 /// `identity`: everything but the recording that the tracks depend on: program, robot, scenario.
 /// A file is written beside and renamed, and read only if its checksum is right, so several processes may share a
 /// folder and a broken file is computed again. A folder that cannot be written is done without.
