@@ -45,7 +45,7 @@ std::string folder_name(const std::string& path) {
 // The scenario with the diagnosed effects added; each effect once.
 std::string twin_yaml(Scenario scenario, const gap::Diagnosis& d) {
   if (!d.causes.empty() && d.causes.front().name != "none" && d.causes.front().name != "unknown") {
-    for (const Effect& e : d.causes.front().fit.effects()) {
+    for (const Effect& e : gap::twin_effects(d.causes.front().fit)) {
       const auto there = std::find_if(scenario.effects.begin(), scenario.effects.end(),
                                       [&](const Effect& other) { return other.info == e.info; });
       if (there == scenario.effects.end()) scenario.effects.push_back(e);
@@ -146,7 +146,7 @@ void run_diagnose(const DiagnoseArguments& a) {
   const gap::Model model(recording, gap::remembered(simulator, recording), gap::Scatter{});
   const std::set<std::string> excluded(a.excluded.begin(), a.excluded.end());
   gap::Diagnosis d = gap::diagnose(model, excluded, gap::Thresholds{}, say);
-  d.limits = limits;
+  d.limits.insert(d.limits.begin(), limits.begin(), limits.end());
   say("what could be another effect");
   const gap::Ties ties = gap::find_ties(model, d, excluded, gap::Thresholds{});
   gap::add_ties(ties, gap::Thresholds{}, d);

@@ -42,6 +42,7 @@ Recording simulate(const TrialDrive& drive) {
   s.seed = drive.seed;
   s.effects = drive.effects;
   s.noise.radius_scatter = drive.radius_scatter;
+  s.noise.motor_scatter = drive.motor_scatter;
   // Both wheels roll unevenly: var(heading) = 2 k^2 / b^2 per metre.
   s.noise.wheel_noise_m_per_sqrt_m = drive.heading_walk_rad_per_sqrt_m * drive.robot.wheelbase_m / std::sqrt(2.0);
   s.truth.kind = drive.planned.truth_kind;

@@ -17,6 +17,13 @@ void scatter_radii(Rig& rig, double sd) {
   for (Wheel& wheel : rig.robot.wheels) wheel.radius_m *= 1 + random.normal(0, sd);
 }
 
+// No speed control is exact.
+void scatter_motors(Rig& rig, double sd) {
+  if (sd == 0) return;
+  RandomStream random(rig.run.seed, "motor scatter", std::uint64_t(rig.run.number));
+  for (Motor& motor : rig.drivetrain.motor) motor.gain *= 1 + random.normal(0, sd);
+}
+
 // Writes down what an experimenter can: ticks, commands, and the absolute pose with its measurement error.
 class Recorder {
  public:
@@ -91,7 +98,9 @@ Rig rig_for(const Scenario& s, const RobotModel& nominal, const RunSpec& spec) {
   rig.floor.ripples =
       random_ripples(s.noise.floor_rms_m, s.noise.floor_wavelength_m, s.seed, std::uint64_t(spec.number));
   scatter_radii(rig, s.noise.radius_scatter);
-  return apply_effects(s.effects, std::move(rig));
+  rig = apply_effects(s.effects, std::move(rig));
+  scatter_motors(rig, s.noise.motor_scatter);
+  return rig;
 }
 
 double torque_limit(const Scenario& s, const RobotModel& robot) {

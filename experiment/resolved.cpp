@@ -107,6 +107,7 @@ std::string resolved_yaml(const Scenario& s) {
   text += s.bumps.any() ? bumps_block(s.bumps) : "";
   text += fmt::format("noise:\n  floor_rms_m: {}\n  floor_wavelength_m: {}\n  radius_scatter: {}\n",
                       s.noise.floor_rms_m, s.noise.floor_wavelength_m, s.noise.radius_scatter);
+  if (s.noise.motor_scatter > 0) text += fmt::format("  motor_scatter: {}\n", s.noise.motor_scatter);
   if (s.noise.wheel_noise_m_per_sqrt_m > 0) {
     text += fmt::format("  wheel_noise_m_per_sqrt_m: {}\n", s.noise.wheel_noise_m_per_sqrt_m);
   }

@@ -55,6 +55,7 @@ struct NoiseChoice {
   double floor_rms_m = 0;           ///< root mean square height of an uneven floor, a new place on it for each run
   double floor_wavelength_m = 0.3;
   double radius_scatter = 0;        ///< standard deviation of each wheel's relative radius from run to run
+  double motor_scatter = 0;         ///< the same of each motor's gain: wheel speed over commanded speed
   double wheel_noise_m_per_sqrt_m = 0;  ///< rough rolling: the variance of a wheel's path is this squared, per metre
 };
 

@@ -1,14 +1,15 @@
 #include "gap/diagnose.h"
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <map>
-
-#include <boost/math/distributions/chi_squared.hpp>
 
 #include "gap/closure.h"
 #include "gap/generic.h"
 #include "gap/search.h"
+#include "gap/track_misfit.h"
+#include "gap/uneven_floor.h"
 #include "gap/where.h"
 
 namespace umbsim::gap {
@@ -69,6 +70,12 @@ double lack_of_fit(const Model& model, const Fit& fit, const Thresholds& t) {
   return std::max(0.0, fit.misfit - (1 + t.noise_error) * model.rows()) / 2;
 }
 
+// What counts stray from commands, and from the course's demand, beyond their scatter, as log evidence.
+double counts_left(const Model& model, const Fit& fit) {
+  const double n = model.count_rows();
+  return std::max(0.0, model.counts_misfit(fit.predicted) - n - 3 * std::sqrt(2 * n)) / 2;
+}
+
 // A combination that predicts held-out runs worse than something simpler gives way to it.
 void prefer_what_predicts(const Model& model, std::vector<Cause>& causes) {
   while (causes.front().fit.families.size() > 1) {
@@ -101,10 +108,12 @@ void find_place(const Model& model, const Fit& fit, Diagnosis& d) {
     const std::string pattern = pattern_of(e.info->name);
     if (pattern == "place") {
       for (std::size_t i = 0; i < e.info->parameters.size(); ++i) {
-        if (e.info->parameters[i].name == "x_m") d.place_m[0] = e.values.numbers[i];
+        if (e.info->parameters[i].name == "x_m") {
+          d.place_m[0] = e.values.numbers[i];
+          d.has_place = true;
+        }
         if (e.info->parameters[i].name == "y_m") d.place_m[1] = e.values.numbers[i];
       }
-      d.has_place = true;
     } else if (pattern == "one_run") {
       for (std::size_t r = 0; r < model.recording().runs.size(); ++r) {
         const RecordedRun& run = model.recording().runs[r];
@@ -123,7 +132,37 @@ void find_place(const Model& model, const Fit& fit, Diagnosis& d) {
   }
 }
 
+// The twin of an unknown cause is the scenario as it was.
+void add_nothing(Closure& closure) {
+  closure.fraction = closure.ci95[0] = closure.ci95[1] = 0;
+  closure.after_mm = closure.before_mm;
+  closure.after_deg = closure.before_deg;
+}
+
+// What the best explanation leaves may be an uneven floor. The same shifts of many passes pretend to be many numbers:
+// an effect beside the floor has to explain a good share.
+std::optional<Fit> with_uneven_floor(const Model& model, const Fit& none, const Fit& best, const Thresholds& t) {
+  const double explained = best.log_evidence - none.log_evidence;
+  const bool stays = explained > t.beside_floor * (explained + lack_of_fit(model, best, t));
+  const Fit& beside = stays ? best : none;
+  const auto floor = find_uneven_floor(model, beside);
+  if (!floor) return {};
+  return on_uneven_floor(beside, *floor);
+}
+
 }  // namespace
+
+std::vector<Effect> twin_effects(const Fit& fit) {
+  std::vector<Effect> effects;
+  Eigen::Index at = 0;
+  for (const Family& f : fit.families) {
+    const Eigen::VectorXd p = fit.p.segment(at, Eigen::Index(f.parameters.size()));
+    at += p.size();
+    if (f.shape_unknown) continue;
+    for (Effect& e : effects_of(f, p)) effects.push_back(std::move(e));
+  }
+  return effects;
+}
 
 Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, const Thresholds& t, const Say& say) {
   Diagnosis d;
@@ -136,7 +175,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   say("held-out runs");
   prefer_what_predicts(model, d.causes);
   say("what no effect explains");
-  const double generic_none = generic_gain(model, none);
+  const double generic_none = generic_gain(model, none) + counts_left(model, none);
   const double lack_none = lack_of_fit(model, none, t);
   const double gap =
       std::max(d.causes.front().name == "none" ? 0 : d.causes.front().score, std::max(generic_none, lack_none));
@@ -150,9 +189,9 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     d.causes.front().score =
         std::max(d.causes.front().score, d.causes.size() > 1 ? d.causes[1].score + t.effect_cost : 0);
   }
-  const Fit best = d.causes.front().fit;
+  Fit best = d.causes.front().fit;
   const double lack = lack_of_fit(model, best, t);
-  const double left_generic = generic_gain(model, best);
+  const double left_generic = generic_gain(model, best) + counts_left(model, best);
   const double leftover = std::max(left_generic, lack);
   const double explained = best.log_evidence - none.log_evidence;
   d.unexplained = d.detected && leftover > t.detect;
@@ -161,8 +200,17 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     // An explanation that leaves much, or that foretells nothing of the other conditions, is none.
     d.closure = held_out_closure(model, best);
     const bool foretells = !d.closure.known || d.closure.ci95[1] > t.least_closure;
-    const bool unknown = d.unexplained && (!foretells || explained < t.known_share * (explained + left_generic) ||
-                                           lack > t.misfit_left * lack_none);
+    bool unknown = d.unexplained && (!foretells || explained < t.known_share * (explained + left_generic) ||
+                                     lack > t.misfit_left * lack_none);
+    if (unknown && excluded.count("uneven_floor") == 0) {
+      if (std::optional<Fit> uneven = with_uneven_floor(model, none, best, t)) {
+        if (uneven->families.size() == 1) add_nothing(d.closure);
+        best = *uneven;
+        unknown = false;
+        d.causes.insert(d.causes.begin(), Cause{best.name(), best, d.causes.front().score + 0.5 * leftover, 0});
+        d.limits.push_back("an uneven floor's shape is not fitted: the twin has no such floor");
+      }
+    }
     Cause cause{"unknown", best, 0, 0};
     cause.fit.families.clear();
     cause.score = unknown ? d.causes.front().score + 0.5 * leftover : generic_none - 2 * t.effect_cost;
@@ -171,6 +219,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     std::stable_sort(d.causes.begin(), d.causes.end(),
                      [](const Cause& a, const Cause& b) { return a.score > b.score; });
     if (d.unexplained) d.left_over = describe_left_over(model, best);
+    if (unknown) add_nothing(d.closure);
   }
   give_probabilities(d.causes);
   const double before_m2 = mean_square_error_m2(model, none.predicted.tracks);
@@ -182,6 +231,10 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   d.overdispersion = std::max(1.0, best.residual / model.rows());
   d.explainable_fraction = explained / std::max(1e-9, explained + std::max(0.0, leftover));
   d.set = tied(d.causes, t);
+  // What explains most of the gap may be there, with something else.
+  if (d.causes.front().name == "unknown" && !best.families.empty() && explained > left_generic) {
+    d.set.push_back(best.name());
+  }
   d.segments = segment_scores(model, none);
   if (d.segments.size() > 12) d.segments.resize(12);
   if (d.detected && !best.families.empty()) {

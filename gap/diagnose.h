@@ -22,9 +22,10 @@ struct Thresholds {
   double smallest_addition = 0.5; ///< as `smallest`, of a further effect
   double noise_error = 0.1; ///< a misfit larger by this share is no news: three sd of two pairs of repeats
   double tie = 6;           ///< log evidence within which two explanations are not told apart
-  double known_share = 0.9; ///< of the explainable evidence that named effects must explain, or the cause is unknown
+  double known_share = 0.97; ///< of the explainable evidence that named effects must explain, or the cause is unknown
   double least_closure = 0.3; ///< that the held-out closure's interval must reach, where something is left
   double misfit_left = 0.5; ///< of the misfit beyond the noise, above which the cause is unknown, too
+  double beside_floor = 0.05; ///< share of the misfit that an effect beside an uneven floor must explain
   int most_effects = 3;
 };
 
@@ -36,6 +37,9 @@ struct Cause {
   double probability = 0;
   double squared_error_drop = 0;  ///< share of the recorded tracks' squared position error that it removes
 };
+
+/// The effects of a fit that can be simulated: without those of which only the strength is known.
+std::vector<Effect> twin_effects(const Fit& fit);
 
 struct SegmentScore {
   std::string run;

@@ -125,7 +125,7 @@ Json diagnosis_json(const Diagnosis& d) {
                        {"explainable_fraction", number(d.explainable_fraction)}};
   } else {
     json["closure"] = {{"held_out_fraction", nullptr},
-                       {"note", d.detected ? "nothing to hold out" : "no gap to close"}};
+                       {"note", d.detected ? "the tracks show no gap that could be closed" : "no gap to close"}};
   }
   json["limits"] = d.limits;
   return json;

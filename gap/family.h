@@ -32,6 +32,7 @@ struct Family {
   bool from_zero = true;  ///< acts in proportion near zero; false: fitted from its start, by repeated simulation
   double search_cost = 0; ///< log of the number of places or moments that were looked at
   double variant_cost = 0; ///< log of the number of families of the same effect, which are all tried
+  bool shape_unknown = false;  ///< its numbers say how strong it is, not where: it is named, and added to no twin
 };
 
 /// The effect with everything that goes with it.

@@ -1,14 +1,15 @@
 // Fitting the numbers of effects in the simulator, and what a fit is worth.
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <set>
-
-#include <Eigen/LU>
 
 #include "gap/model.h"
 
 namespace umbsim::gap {
 namespace {
+
+constexpr int kRoundsAgain = 2;
 
 Eigen::VectorXd joined(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   Eigen::VectorXd c(a.size() + b.size());
@@ -73,13 +74,17 @@ std::vector<Effect> Model::fitted_on(const Fit& fit, const std::vector<std::size
   Fit other = fit;
   other.p = e.mean.tail(fit.p.size());
   Eigen::Index i = 0;
+  bool all_told = true;
   for (const FreeParameter& p : free_parameters(fit.families)) {
     // What happened in one run alone no other run can tell: the number stays as it is.
     const double sd_left = std::sqrt(e.covariance(nuisances() + i, nuisances() + i));
-    if (!(sd_left < 0.8 * p.prior_sd)) other.p[i] = fit.p[i];
+    const bool told = sd_left < 0.8 * p.prior_sd;
+    if (!told) other.p[i] = fit.p[i];
+    all_told = all_told && told;
     other.p[i] = std::clamp(other.p[i], p.min, p.max);
     ++i;
   }
+  if (!fit.linear && all_told) return this->fit(fit.families, other.p, kRoundsAgain, runs).effects();
   return other.effects();
 }
 
@@ -143,7 +148,9 @@ void Model::linearise(Fit& fit) const {
 }
 
 // Gauss-Newton on the density, with steps back where the simulator bends.
-Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start, int rounds) const {
+Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start, int rounds,
+               const std::vector<std::size_t>& some) const {
+  const std::vector<std::size_t> runs = some.empty() ? all_runs() : some;
   Fit fit;
   fit.families = families;
   const std::vector<FreeParameter> free = free_parameters(families);
@@ -155,13 +162,15 @@ Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start
   double best_density = -1e300;
   // What does not act in proportion takes longer, most of all with the softness of the tyres.
   const auto any = [&](const auto& is) { return std::any_of(families.begin(), families.end(), is); };
-  if (any([](const Family& f) { return bool(f.with); })) rounds *= 2;
-  else if (any([](const Family& f) { return !f.from_zero; })) rounds += 1;
+  if (any([](const Family& f) { return bool(f.with); }))
+    rounds *= 2;
+  else if (any([](const Family& f) { return !f.from_zero; }))
+    rounds += 1;
   for (int round = 0; round < rounds; ++round) {
     linearise(fit);
-    const Evidence e = evidence(fit.grams, all_runs(), first_columns(sd.size()), sd, shifted(sd, fit.p));
+    const Evidence e = evidence(fit.grams, runs, first_columns(sd.size()), sd, shifted(sd, fit.p));
     // Density with the effects held at p: the honest objective of the descent.
-    const Evidence held = evidence(fit.grams, all_runs(), first_columns(nuisances()), nuisance_sd());
+    const Evidence held = evidence(fit.grams, runs, first_columns(nuisances()), nuisance_sd());
     const double density = held.log_density - 0.5 * fit.p.cwiseQuotient(sd.tail(m)).squaredNorm();
     fit.covariance = e.covariance.bottomRightCorner(m, m);
     fit.residual = held.residual;

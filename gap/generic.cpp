@@ -1,9 +1,10 @@
 #include "gap/generic.h"
 
-#include <cmath>
+#include <tbb/parallel_for.h>
 
 #include <Eigen/Cholesky>
-#include <tbb/parallel_for.h>
+#include <algorithm>
+#include <cmath>
 
 namespace umbsim::gap {
 namespace {
@@ -14,12 +15,42 @@ constexpr double kTurn = 3e-3;        // of a turn's angle
 constexpr double kShift_m = 5e-4;     // of a turn, in each direction
 constexpr double kRipple_rad = 5e-4;  // of heading, with the wheel's angle
 constexpr int kRipples = 4;
+constexpr double kDrift = 5e-3;      // metres per metre, in the floor's frame
+constexpr double kTrend = 1e-3;      // of a radius, per run
+constexpr double kOwnRadius = 2e-3;  // of a radius, in one run
+constexpr double kNothing = 1e-12;   // standard deviation of what is not there
+constexpr int kMostHabits = 8;
+constexpr double kModels = 3;              // that are tried
+constexpr int kHabits = kRipples + 2 + 2;  // ripples, drift, trends
 
 struct Raw {
-  Eigen::MatrixXd ripples;
+  Eigen::MatrixXd habits;
   Eigen::MatrixXd parts;
   Eigen::VectorXd parts_sd;
 };
+
+// What all runs would share: ripples of the heading with the wheels' angles, a drift in the floor's frame, radii that
+// change from run to run.
+Eigen::MatrixXd habit_columns(const Model& model, std::size_t r, const std::vector<Kicks3>& ripples) {
+  const auto& path = model.nominal().tracks[r];
+  const TrackFilter& filter = model.filter(r);
+  const std::size_t n = filter.samples();
+  std::vector<Kicks3> kicks(kHabits, Kicks3(n, Eigen::Vector3d::Zero()));
+  std::copy(ripples.begin(), ripples.end(), kicks.begin());
+  for (std::size_t i = 1; i < n; ++i) {
+    const double rolled = model.nominal().rolled_m[r][i];
+    const double theta = path[i].theta_rad;
+    kicks[kRipples][i] = rolled * Eigen::Vector3d(std::cos(theta), -std::sin(theta), 0);
+    kicks[kRipples + 1][i] = rolled * Eigen::Vector3d(std::sin(theta), std::cos(theta), 0);
+  }
+  for (int w = 0; w < 2; ++w) {
+    kicks[std::size_t(kRipples + 2 + w)] = radius_kicks(model.nominal(), r, w);
+    for (Eigen::Vector3d& k : kicks[std::size_t(kRipples + 2 + w)]) k *= double(r);
+  }
+  Eigen::MatrixXd columns(3 * Eigen::Index(n), kHabits);
+  for (int i = 0; i < kHabits; ++i) columns.col(i) = filter.propagate(kicks[std::size_t(i)]);
+  return columns;
+}
 
 Raw raw_columns(const Model& model, std::size_t r) {
   const Recording& recording = model.recording();
@@ -30,9 +61,8 @@ Raw raw_columns(const Model& model, std::size_t r) {
   const TrackFilter& filter = model.filter(r);
   const std::size_t n = filter.samples();
   const double k = 2 * M_PI / recording.robot.ticks_per_revolution;
-  using Kicks = std::vector<Eigen::Vector3d>;
-  std::vector<Kicks> parts(3 * stretches.size(), Kicks(n, Eigen::Vector3d::Zero()));
-  std::vector<Kicks> ripples(kRipples, Kicks(n, Eigen::Vector3d::Zero()));
+  std::vector<Kicks3> parts(3 * stretches.size(), Kicks3(n, Eigen::Vector3d::Zero()));
+  std::vector<Kicks3> ripples(kRipples, Kicks3(n, Eigen::Vector3d::Zero()));
   std::size_t stretch = 0;
   std::size_t e = 0;
   double before[2] = {0, 0};
@@ -54,10 +84,8 @@ Raw raw_columns(const Model& model, std::size_t r) {
       before[w] = angle[w];
     }
   }
-  Raw raw{Eigen::MatrixXd(3 * Eigen::Index(n), kRipples),
-          Eigen::MatrixXd(3 * Eigen::Index(n), Eigen::Index(parts.size())),
+  Raw raw{habit_columns(model, r, ripples), Eigen::MatrixXd(3 * Eigen::Index(n), Eigen::Index(parts.size())),
           Eigen::VectorXd(Eigen::Index(parts.size()))};
-  for (int i = 0; i < kRipples; ++i) raw.ripples.col(i) = filter.propagate(ripples[std::size_t(i)]);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     raw.parts.col(Eigen::Index(i)) = filter.propagate(parts[i]);
     const bool turn = stretches[i / 3].kind == Stretch::Kind::turn;
@@ -66,30 +94,72 @@ Raw raw_columns(const Model& model, std::size_t r) {
   return raw;
 }
 
+Eigen::VectorXd habits_sd() {
+  Eigen::VectorXd sd(kHabits);
+  sd << Eigen::VectorXd::Constant(kRipples, kRipple_rad), kDrift, kDrift, kTrend, kTrend;
+  return sd;
+}
+
+std::vector<int> first_columns(Eigen::Index n) {
+  std::vector<int> columns;
+  for (int i = 1; i <= int(n); ++i) columns.push_back(i);
+  return columns;
+}
+
+// Habits one after another, as long as the next one pays for having been picked among all.
+double shared_density(const Model& model, const std::vector<RunGram>& grams) {
+  Eigen::VectorXd sd(model.nuisances() + kHabits);
+  sd << model.nuisance_sd(), Eigen::VectorXd::Constant(kHabits, kNothing);
+  Eigen::VectorXd wide(sd.size());
+  wide << model.unexplained_sd(), habits_sd();
+  const auto density = [&] { return evidence(grams, model.all_runs(), first_columns(sd.size()), sd).log_density; };
+  double best = density();
+  for (int round = 0; round < kMostHabits; ++round) {
+    Eigen::Index next = -1;
+    double with = best + std::log(double(sd.size()));
+    for (Eigen::Index i = 0; i < sd.size(); ++i) {
+      const double narrow = sd[i];
+      if (wide[i] <= narrow) continue;
+      sd[i] = wide[i];
+      if (const double d = density(); d > with) {
+        with = d;
+        next = i;
+      }
+      sd[i] = narrow;
+    }
+    if (next < 0) break;
+    best = with - std::log(double(sd.size()));
+    sd[next] = wide[next];
+  }
+  return best;
+}
+
 }  // namespace
 
 double generic_gain(const Model& model, const Fit& fit) {
   const std::size_t runs = model.recording().runs.size();
   const std::vector<Eigen::VectorXd> residual = model.residuals(fit.predicted);
-  std::vector<Eigen::MatrixXd> ripples(runs);
+  std::vector<Eigen::MatrixXd> habits(runs);
   std::vector<LocalColumns> parts(runs);
+  std::vector<LocalColumns> radii(runs);
   tbb::parallel_for(std::size_t(0), runs, [&](std::size_t r) {
     const Raw raw = raw_columns(model, r);
-    ripples[r] = Eigen::MatrixXd::Zero(residual[r].size(), kRipples);
-    ripples[r].topRows(raw.ripples.rows()) = model.filter(r).whiten(raw.ripples);
+    habits[r] = Eigen::MatrixXd::Zero(residual[r].size(), kHabits);
+    habits[r].topRows(raw.habits.rows()) = model.filter(r).whiten(raw.habits);
     parts[r].columns = Eigen::MatrixXd::Zero(residual[r].size(), raw.parts.cols());
     parts[r].columns.topRows(raw.parts.rows()) = model.filter(r).whiten(raw.parts);
     parts[r].prior_sd = raw.parts_sd;
+    radii[r] = {model.own_columns(r).leftCols(2), Eigen::VectorXd::Constant(2, kOwnRadius)};
   });
-  const std::vector<RunGram> with = model.grams(residual, ripples, parts);
-  const std::vector<RunGram> without = model.grams(residual, {});
-  Eigen::VectorXd sd(model.nuisances() + kRipples);
-  sd << model.nuisance_sd(), Eigen::VectorXd::Constant(kRipples, kRipple_rad);
-  std::vector<int> columns;
-  for (int i = 1; i <= int(sd.size()); ++i) columns.push_back(i);
-  const std::vector<int> nuisances(columns.begin(), columns.begin() + model.nuisances());
-  return evidence(with, model.all_runs(), columns, sd).log_density -
-         evidence(without, model.all_runs(), nuisances, model.nuisance_sd()).log_density;
+  const auto density = [&](const std::vector<RunGram>& grams, const Eigen::VectorXd& sd) {
+    return evidence(grams, model.all_runs(), first_columns(sd.size()), sd).log_density;
+  };
+  Eigen::VectorXd rippled(model.nuisances() + kRipples);
+  rippled << model.nuisance_sd(), Eigen::VectorXd::Constant(kRipples, kRipple_rad);
+  const double best = std::max({shared_density(model, model.grams(residual, habits)),
+                                density(model.grams(residual, {}, radii), model.nuisance_sd()),
+                                density(model.grams(residual, habits, parts), rippled)});
+  return best - std::log(kModels) - density(model.grams(residual, {}), model.nuisance_sd());
 }
 
 }  // namespace umbsim::gap

@@ -4,9 +4,12 @@
 
 namespace umbsim::gap {
 
-/// Log evidence that errors of no particular cause gain on top of a fit: every leg and turn of every run may be longer,
-/// more curved or further to one side than predicted, and the heading may ripple with either wheel's angle. What this
-/// model finds and no effect does is unknown.
+/// Log evidence that errors of no particular cause gain on top of a fit. The best of three models counts:
+/// - habits that all runs of a driving condition share: legs and turns longer or more curved than predicted, the
+///   heading rippling with either wheel's angle, a drift over the floor, radii that change from run to run;
+/// - radii that differ from run to run by more than they should;
+/// - every leg and turn of every run on its own.
+/// What one of them finds and no effect does is unknown.
 double generic_gain(const Model& model, const Fit& fit);
 
 }  // namespace umbsim::gap

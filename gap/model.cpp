@@ -116,6 +116,12 @@ double Model::counts_misfit(const Predicted& predicted) const {
   return sum;
 }
 
+double Model::count_rows() const {
+  double rows = double(std::tuple_size<Habits>::value);
+  for (const CommandFeatures& counted : measured_.counted) rows += counted.known ? 3 : 0;
+  return rows;
+}
+
 std::vector<Eigen::MatrixXd> Model::columns(const Predicted& at, const std::vector<Predicted>& stepped,
                                             const std::vector<double>& steps) const {
   std::vector<Eigen::MatrixXd> result(recording_.runs.size());

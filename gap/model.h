@@ -71,6 +71,10 @@ class Model {
   const Habits& habits() const { return measured_.habits; }
   int nuisances() const { return int(nuisances_.shared_sd.size()); }
   const Eigen::VectorXd& nuisance_sd() const { return nuisances_.shared_sd; }
+  const Eigen::VectorXd& unexplained_sd() const { return nuisances_.unexplained_sd; }
+  /// Whitened columns of a run's own nuisances; the first two are the radii of its wheels.
+  const Eigen::MatrixXd& own_columns(std::size_t run) const { return nuisances_.own[run]; }
+  double radius_scatter() const { return nuisances_.own_sd[0]; }  ///< of a wheel's radius from run to run
   std::vector<std::size_t> all_runs() const;
   double rows() const;  ///< numbers in all residuals that count
   double simulated_s() const { return simulated_s_; }
@@ -92,6 +96,7 @@ class Model {
 
   /// Sum of squares, in standard deviations, by which a prediction misses counts against commands.
   double counts_misfit(const Predicted& predicted) const;
+  double count_rows() const;  ///< numbers that it is made of
 
   /// Grams of residual, nuisances and the given columns; further columns of each run alone are integrated out.
   std::vector<RunGram> grams(const std::vector<Eigen::VectorXd>& residual, const std::vector<Eigen::MatrixXd>& columns,
@@ -106,10 +111,13 @@ class Model {
   /// Log density of the data with the families' numbers held at p, against none: how well a start would do.
   double density_at(const std::vector<Family>& families, const Eigen::VectorXd& p) const;
 
-  /// Fits the free numbers of the families together, in the simulator. `start`: empty for the families' own.
-  Fit fit(const std::vector<Family>& families, const Eigen::VectorXd& start = {}, int rounds = 7) const;
+  /// Fits the free numbers of the families together, in the simulator. `start`: empty for the families' own. `runs`:
+  /// that count; empty: all.
+  Fit fit(const std::vector<Family>& families, const Eigen::VectorXd& start = {}, int rounds = 7,
+          const std::vector<std::size_t>& runs = {}) const;
 
-  /// The effects of a fit with their numbers taken from a subset of the runs.
+  /// The effects of a fit with their numbers taken from a subset of the runs: by the fit's derivatives, and where the
+  /// simulator bends by fitting again from there.
   std::vector<Effect> fitted_on(const Fit& fit, const std::vector<std::size_t>& runs) const;
 
   /// Log evidence over the runs of a subset, of a fit's linearised model.

@@ -14,6 +14,7 @@ constexpr int kShared = 6;    // marker (2), clock, creep, slip, frame
 constexpr int kPerGroup = 5;  // legs, turns in place, rolling turns, heading and sideways along legs
 constexpr int kOwn = 4;       // radii (2), clock, its rate
 constexpr double kCreep = 0.01;
+constexpr double kUnexplained = 20;  // times the scatter between engines
 
 // Runs of the same speed, payload and kind of turn share their scatter between engines.
 struct Groups {
@@ -112,6 +113,12 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   const bool is_free = tracker_is_free(*nominal.recording);
   Nuisances n;
   n.shared_sd = shared_sd(groups, scatter, is_free);
+  n.unexplained_sd = n.shared_sd;
+  for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
+    const Eigen::Index first = kShared + kPerGroup * Eigen::Index(g);
+    // Between turns in place only the moments at which a turn begins and ends roll in an arc: engines differ there.
+    for (int i = 0; i < kPerGroup; ++i) n.unexplained_sd[first + i] *= i == 2 && !groups.rolling[g] ? 1 : kUnexplained;
+  }
   n.own_sd.resize(kOwn);
   const double radius = is_free ? scatter.real_radius : scatter.radius;
   n.own_sd << radius, radius, is_free ? scatter.run_clock_s : 0, is_free ? scatter.clock_rate : 0;

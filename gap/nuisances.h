@@ -33,6 +33,7 @@ struct Scatter {
 /// Columns that are fitted always and credited to nobody. Per run, whitened; outer index: run.
 struct Nuisances {
   Eigen::VectorXd shared_sd;
+  Eigen::VectorXd unexplained_sd;       ///< of the same numbers, if errors of no particular cause stood behind them
   std::vector<Eigen::MatrixXd> shared;  ///< one number for all runs
   Eigen::VectorXd own_sd;
   std::vector<Eigen::MatrixXd> own;     ///< a number of its own for each run

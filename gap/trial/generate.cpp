@@ -71,9 +71,10 @@ DrivenCase drive_case(const TrialPlan& plan, const TrialCase& c, const Platform&
                       const TrialSimulator& simulator, int attempt) {
   RandomStream random(plan.seed, fmt::format("trial shape {}", attempt), c.index);
   DrivenCase driven;
-  TrialDrive drive{platform.robot, planned_for(plan, c, platform), {}, 0, 0, c.seed};
+  TrialDrive drive{platform.robot, planned_for(plan, c, platform), {}, 0, 0, 0, c.seed};
   drive.heading_walk_rad_per_sqrt_m = plan.noise.heading_walk_rad_per_sqrt_m * c.noise_level;
   drive.radius_scatter = plan.noise.radius_scatter * c.noise_level;
+  drive.motor_scatter = plan.noise.motor_scatter * c.noise_level;
   for (std::size_t i = 0; i < c.effects.size(); ++i) {
     const DrawnEffect drawn = draw_effect(*c.effects[i], platform, runs_of(plan, c.tier), random);
     driven.effects.push_back(

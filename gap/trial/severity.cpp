@@ -198,13 +198,14 @@ SeverityScale::SeverityScale(const TrialPlan& plan, const Platform& platform, Re
                              const TrialSimulator& simulator)
     : simulator_(simulator) {
   planned.truth_position_sd_m = planned.truth_heading_sd_rad = 0;
-  drive_ = {platform.robot, std::move(planned), {}, 0, 0, plan.seed};
+  drive_ = {platform.robot, std::move(planned), {}, 0, 0, 0, plan.seed};
   TrialDrive noisy = drive_;
   drive_.planned.robot.ticks_per_revolution *= kFiner;
   const Recording clean = simulator(drive_);
   for (const Signal signal : kSignals) nominal_[std::size_t(signal)] = signal_track(clean, signal);
   noisy.heading_walk_rad_per_sqrt_m = plan.noise.heading_walk_rad_per_sqrt_m;
   noisy.radius_scatter = plan.noise.radius_scatter;
+  noisy.motor_scatter = plan.noise.motor_scatter;
   noisy.planned.truth_position_sd_m = plan.noise.position_sd_m;
   noisy.planned.truth_heading_sd_rad = plan.noise.heading_sd_rad;
   std::array<SignalTrack, 2> tracks, without;

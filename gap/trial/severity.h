@@ -18,6 +18,7 @@ struct TrialDrive {
   std::vector<Effect> effects;
   double heading_walk_rad_per_sqrt_m = 0;
   double radius_scatter = 0;
+  double motor_scatter = 0;
   std::uint64_t seed = 1;
 };
 

@@ -87,6 +87,7 @@ TrialNoise read_noise(const YamlValue& value) {
   n.heading_walk_rad_per_sqrt_m =
       map.number("heading_walk_rad_per_sqrt_m", n.heading_walk_rad_per_sqrt_m, {0, 0.1, true});
   n.radius_scatter = map.number("radius_scatter", n.radius_scatter, Bounds::between(0, 0.1));
+  n.motor_scatter = map.number("motor_scatter", n.motor_scatter, Bounds::between(0, 0.1));
   n.position_sd_m = map.number("position_sd_m", n.position_sd_m, {0, 1, true});
   n.heading_sd_rad = map.number("heading_sd_rad", n.heading_sd_rad, {0, 1, true});
   n.level = range(map, "level", n.level);
@@ -201,8 +202,9 @@ std::string resolved_trial(const TrialPlan& p) {
   add("linear_speed_mps", q.linear_speed_mps);
   add("angular_speed_radps", q.angular_speed_radps);
   text += fmt::format(
-      "noise:\n  heading_walk_rad_per_sqrt_m: {}\n  radius_scatter: {}\n  position_sd_m: {}\n  heading_sd_rad: {}\n",
-      yaml_number(n.heading_walk_rad_per_sqrt_m, ""), yaml_number(n.radius_scatter, ""),
+      "noise:\n  heading_walk_rad_per_sqrt_m: {}\n  radius_scatter: {}\n  motor_scatter: {}\n"
+      "  position_sd_m: {}\n  heading_sd_rad: {}\n",
+      yaml_number(n.heading_walk_rad_per_sqrt_m, ""), yaml_number(n.radius_scatter, ""), yaml_number(n.motor_scatter, ""),
       yaml_number(n.position_sd_m, ""), yaml_number(n.heading_sd_rad, ""));
   add("level", n.level);
   text += "runs:\n";

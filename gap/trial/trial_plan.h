@@ -44,9 +44,10 @@ struct PlatformRanges {
 struct TrialNoise {
   double heading_walk_rad_per_sqrt_m = 0.0006;  ///< of a straight leg
   double radius_scatter = 5e-5;                 ///< relative, from run to run
+  double motor_scatter = 4e-4;                  ///< of each motor's relative gain, from run to run
   double position_sd_m = 0.0003;                ///< of the absolute pose
   double heading_sd_rad = 0.0003;
-  Range level{0.7, 1.4};                        ///< all four are multiplied by this
+  Range level{0.7, 1.4};                        ///< all five are multiplied by this
 };
 
 /// One run of the recommended set.

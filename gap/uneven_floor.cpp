@@ -1,0 +1,287 @@
+#include "gap/uneven_floor.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "gap/family_shapes.h"
+
+namespace umbsim::gap {
+namespace {
+
+constexpr double kEnds_m = 0.25;   // of a leg, which turns touch
+constexpr double kWindow_m = 1.0;  // either way: what bends more slowly is no shift of a place
+constexpr double kSamePlace_m = 0.03;
+constexpr double kTurned_rad = 1.0;  // headings of passes in different directions differ by more
+constexpr double kAlike_rad = 0.2;
+constexpr double kBin_m = 0.03;
+constexpr int kBins = 24;
+constexpr int kLeastBlocks = 4;  // legs of pairs of runs
+constexpr double kLeastSigmas = 4;
+constexpr double kLeastShare = 0.15;  // of the agreement in one direction that other directions must show
+
+/// A sample on a leg: where, and how far off the smooth course, in the floor's frame.
+struct Shifted {
+  Pose2 X_WB;
+  Eigen::Vector2d shift_m;
+  int leg = 0;
+};
+
+// What remains of a leg's track errors when a straight line through the neighbourhood is taken out.
+void detrend(std::vector<Shifted>& leg, const std::vector<double>& way_m, std::vector<Shifted>& into) {
+  for (std::size_t k = 0; k < leg.size(); ++k) {
+    double n = 0, s = 0, ss = 0;
+    Eigen::Vector2d f = Eigen::Vector2d::Zero(), sf = f;
+    for (std::size_t j = 0; j < leg.size(); ++j) {
+      const double d = way_m[j] - way_m[k];
+      if (std::abs(d) > kWindow_m) continue;
+      n += 1;
+      s += d;
+      ss += d * d;
+      f += leg[j].shift_m;
+      sf += d * leg[j].shift_m;
+    }
+    const double det = n * ss - s * s;
+    if (n < 8 || det <= 0) continue;
+    into.push_back(leg[k]);
+    into.back().shift_m -= (ss * f - s * sf) / det;
+  }
+}
+
+std::vector<Shifted> shifts_of(const Model& model, const Fit& fit, std::size_t r) {
+  const auto& truth = model.recording().runs[r].truth;
+  const Eigen::VectorXd error = track_error(fit.predicted.tracks[r], model.nominal().truth[r]);
+  std::vector<Shifted> result;
+  for (const Stretch& s : model.stretches(r)) {
+    if (s.kind != Stretch::Kind::leg) continue;
+    std::vector<Shifted> leg;
+    std::vector<double> way_m;
+    double way = 0;
+    for (std::size_t k = 1; k < truth.size(); ++k) {
+      if (truth[k].time_s <= s.start_s || truth[k].time_s >= s.end_s) continue;
+      way += model.nominal().rolled_m[r][k];
+      if (way < kEnds_m || way > std::abs(s.length_m) - kEnds_m) continue;
+      const double c = std::cos(truth[k].X_WB.theta_rad), sn = std::sin(truth[k].X_WB.theta_rad);
+      const double along = error[3 * Eigen::Index(k)], across = error[3 * Eigen::Index(k) + 1];
+      leg.push_back({truth[k].X_WB, {c * along - sn * across, sn * along + c * across}, s.leg});
+      way_m.push_back(way);
+    }
+    detrend(leg, way_m, result);
+  }
+  return result;
+}
+
+using Spot = std::pair<long, long>;
+Spot spot_of(const Pose2& p) { return {std::lround(p.x_m / kSamePlace_m), std::lround(p.y_m / kSamePlace_m)}; }
+
+/// A run's samples by place.
+class Passes {
+ public:
+  explicit Passes(std::vector<Shifted> all) : all_(std::move(all)) {
+    for (std::size_t i = 0; i < all_.size(); ++i) at_[spot_of(all_[i].X_WB)].push_back(i);
+  }
+  const std::vector<Shifted>& all() const { return all_; }
+
+  const Shifted* nearest(const Pose2& p) const {
+    const Spot spot = spot_of(p);
+    const Shifted* best = nullptr;
+    double least = kSamePlace_m * kSamePlace_m;
+    for (long i = -1; i <= 1; ++i) {
+      for (long j = -1; j <= 1; ++j) {
+        const auto found = at_.find({spot.first + i, spot.second + j});
+        if (found == at_.end()) continue;
+        for (const std::size_t k : found->second) {
+          const double d = std::pow(all_[k].X_WB.x_m - p.x_m, 2) + std::pow(all_[k].X_WB.y_m - p.y_m, 2);
+          if (d >= least) continue;
+          least = d;
+          best = &all_[k];
+        }
+      }
+    }
+    return best;
+  }
+
+ private:
+  std::vector<Shifted> all_;
+  std::map<Spot, std::vector<std::size_t>> at_;
+};
+
+/// Means of products of shifts at the same place, each leg of each pair of runs for itself.
+struct Agreement {
+  std::vector<double> blocks_m2;
+  double mean_m2() const {
+    double sum = 0;
+    for (const double b : blocks_m2) sum += b;
+    return blocks_m2.empty() ? 0 : sum / double(blocks_m2.size());
+  }
+  double sigmas() const {
+    double square = 0;
+    for (const double b : blocks_m2) square += std::pow(b - mean_m2(), 2);
+    const double n = double(blocks_m2.size());
+    return mean_m2() / std::sqrt(square / (n * (n - 1)) + 1e-30);
+  }
+};
+
+// Between runs that pass alike (turned: in different directions).
+Agreement agreement(const std::vector<Passes>& runs, bool turned) {
+  Agreement result;
+  for (std::size_t a = 0; a < runs.size(); ++a) {
+    for (std::size_t b = a + 1; b < runs.size(); ++b) {
+      std::map<int, std::pair<double, int>> legs;
+      for (const Shifted& s : runs[a].all()) {
+        const Shifted* other = runs[b].nearest(s.X_WB);
+        if (!other) continue;
+        const double apart = std::abs(std::remainder(s.X_WB.theta_rad - other->X_WB.theta_rad, 2 * M_PI));
+        if (turned ? apart < kTurned_rad : apart > kAlike_rad) continue;
+        auto& [sum, n] = legs[s.leg];
+        sum += s.shift_m.dot(other->shift_m);
+        ++n;
+      }
+      for (const auto& [leg, sum] : legs) {
+        if (sum.second >= 10) result.blocks_m2.push_back(sum.first / sum.second);
+      }
+    }
+  }
+  return result;
+}
+
+/// Covariance of shifts (along, across) over the distance between two places of a leg.
+struct Covariance {
+  std::array<std::array<double, kBins>, 2> m2{};
+  std::array<double, kBins> count{};
+};
+
+// From pairs of different runs that pass alike: what is random differs.
+Covariance covariance_of(const std::vector<Passes>& runs, std::size_t without) {
+  Covariance c;
+  for (std::size_t a = 0; a < runs.size(); ++a) {
+    for (std::size_t b = a + 1; b < runs.size(); ++b) {
+      if (a == without || b == without) continue;
+      for (const Shifted& s : runs[a].all()) {
+        const double ct = std::cos(s.X_WB.theta_rad), st = std::sin(s.X_WB.theta_rad);
+        for (int bin = 0; bin < kBins; ++bin) {
+          const double d = bin * kBin_m;
+          const Shifted* other = runs[b].nearest({s.X_WB.x_m + d * ct, s.X_WB.y_m + d * st, 0});
+          if (!other) continue;
+          if (std::abs(std::remainder(s.X_WB.theta_rad - other->X_WB.theta_rad, 2 * M_PI)) > kAlike_rad) continue;
+          const auto in = [&](const Eigen::Vector2d& f) {
+            return Eigen::Vector2d(ct * f.x() + st * f.y(), -st * f.x() + ct * f.y());
+          };
+          const Eigen::Vector2d u = in(s.shift_m), v = in(other->shift_m);
+          c.m2[0][std::size_t(bin)] += u.x() * v.x();
+          c.m2[1][std::size_t(bin)] += u.y() * v.y();
+          c.count[std::size_t(bin)] += 1;
+        }
+      }
+    }
+  }
+  for (int bin = 0; bin < kBins; ++bin) {
+    for (auto& part : c.m2) part[std::size_t(bin)] /= std::max(1.0, c.count[std::size_t(bin)]);
+  }
+  return c;
+}
+
+// Of a floor of unit rms: an isotropic field of one wavelength has covariance J0(k r). The wheels' slopes shift the
+// axle along, the roll across.
+std::array<std::array<double, kBins>, 2> expected(double wavelength_m, double height_m, double wheelbase_m) {
+  std::array<std::array<double, kBins>, 2> sum{};
+  constexpr int kWaves = 5;  // wavelengths scatter by a third
+  for (int i = 0; i < kWaves; ++i) {
+    const double k = 2 * M_PI / (wavelength_m * (1 + (i - 2) / 6.0));
+    const auto J0 = [&](double d, double y) { return std::cyl_bessel_j(0.0, k * std::hypot(d, y)); };
+    // -d2/ds2 of J0(k r).
+    const auto slopes = [&](double d, double y) {
+      const double r = std::hypot(d, y);
+      if (r < 1e-9) return k * k / 2;
+      const double share = d * d / (r * r);
+      const double J1 = std::cyl_bessel_j(1.0, k * r);
+      return share * (k * k * std::cyl_bessel_j(0.0, k * r) - k * J1 / r) + (1 - share) * k * J1 / r;
+    };
+    for (int bin = 0; bin < kBins; ++bin) {
+      const double d = bin * kBin_m;
+      sum[0][std::size_t(bin)] += height_m * height_m * (slopes(d, 0) + slopes(d, wheelbase_m)) / 2 / kWaves;
+      sum[1][std::size_t(bin)] += std::pow(height_m / wheelbase_m, 2) * 2 * (J0(d, 0) - J0(d, wheelbase_m)) / kWaves;
+    }
+  }
+  return sum;
+}
+
+// Least squares over both covariances: the rms in closed form, the wavelength by trying.
+std::array<double, 2> rms_and_wavelength(const Covariance& c, double height_m, double wheelbase_m) {
+  double best = 1e300;
+  std::array<double, 2> result{};
+  for (double wavelength = 0.08; wavelength < 3; wavelength *= 1.04) {
+    const auto unit = expected(wavelength, height_m, wheelbase_m);
+    double xy = 0, xx = 0, yy = 0;
+    for (std::size_t part = 0; part < 2; ++part) {
+      for (std::size_t bin = 0; bin < kBins; ++bin) {
+        xy += unit[part][bin] * c.m2[part][bin];
+        xx += unit[part][bin] * unit[part][bin];
+        yy += c.m2[part][bin] * c.m2[part][bin];
+      }
+    }
+    const double square = yy - (xy > 0 ? xy * xy / xx : 0);
+    if (square >= best) continue;
+    best = square;
+    result = {std::sqrt(std::max(0.0, xy / xx)), wavelength};
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<UnevenFloorFound> find_uneven_floor(const Model& model, const Fit& fit) {
+  if (model.recording().truth_kind != "track") return {};
+  std::vector<Passes> runs;
+  for (const std::size_t r : model.all_runs()) runs.emplace_back(shifts_of(model, fit, r));
+  const Agreement turned = agreement(runs, true);
+  const Agreement alike = agreement(runs, false);
+  if (int(turned.blocks_m2.size()) < kLeastBlocks || turned.sigmas() < kLeastSigmas) return {};
+  if (turned.mean_m2() < kLeastShare * alike.mean_m2()) return {};
+  const double height_m = model.recording().robot.wheel_radius_m;
+  const double wheelbase_m = model.recording().robot.wheelbase_m;
+  UnevenFloorFound found;
+  found.sigmas = turned.sigmas();
+  const auto all = rms_and_wavelength(covariance_of(runs, runs.size()), height_m, wheelbase_m);
+  found.rms_m = all[0];
+  found.wavelength_m = all[1];
+  // Jackknife.
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const auto some = rms_and_wavelength(covariance_of(runs, r), height_m, wheelbase_m);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double difference = std::log(std::max(1e-9, some[i]) / std::max(1e-9, all[i]));
+      found.log_sd[i] += difference * difference * double(runs.size() - 1) / double(runs.size());
+    }
+  }
+  for (double& sd : found.log_sd) sd = std::sqrt(sd);
+  if (!(found.rms_m > 0)) return {};
+  return found;
+}
+
+Fit on_uneven_floor(Fit fit, const UnevenFloorFound& floor) {
+  const EffectInfo& info = find_effect("uneven_floor");
+  const EffectValues base = neutral_effect(info).values;
+  const std::size_t rms = index_of(info, "rms_m");
+  const std::size_t wavelength = index_of(info, "wavelength_m");
+  const auto logarithm = [](const char* name) { return FreeParameter{name, 0, 0.1, 3, -14, 3}; };
+  Family family{"uneven_floor", "roughness", {logarithm("log rms_m"), logarithm("log wavelength_m")}, {}, {}, false, 0};
+  family.shape_unknown = true;
+  family.values = [=](const Eigen::VectorXd& p) {
+    EffectValues values = base;
+    values.numbers[rms] = std::exp(p[0]);
+    values.numbers[wavelength] = std::exp(p[1]);
+    return values;
+  };
+  const Eigen::Index own = fit.p.size();
+  fit.families.push_back(std::move(family));
+  fit.p.conservativeResize(own + 2);
+  fit.p.tail(2) << std::log(floor.rms_m), std::log(floor.wavelength_m);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(own + 2, own + 2);
+  covariance.topLeftCorner(own, own) = fit.covariance;
+  for (int i = 0; i < 2; ++i) covariance(own + i, own + i) = floor.log_sd[i] * floor.log_sd[i];
+  fit.covariance = covariance;
+  return fit;
+}
+
+}  // namespace umbsim::gap
