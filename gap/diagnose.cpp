@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "gap/addition.h"
 #include "gap/closure.h"
 #include "gap/generic.h"
 #include "gap/search.h"
@@ -15,6 +16,8 @@
 namespace umbsim::gap {
 namespace {
 
+constexpr double kAsGood = 1.001;      // held-out error of a combination, over that of something simpler
+constexpr double kWorthKnowing = 0.2;  // what effects explain, over the misfit that they leave
 constexpr double kOverconfidence = 2;  // evidence is divided by this before it becomes probability
 
 double tail(double chi_squared, double degrees_of_freedom) {
@@ -48,17 +51,17 @@ void give_probabilities(std::vector<Cause>& causes) {
 
 // Combinations that bring too little over anything simpler are dropped: each further effect has to pay.
 std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, const Thresholds& t) {
-  const double none = fits.front().log_evidence;
+  const Fit none = fits.front();
   std::stable_sort(fits.begin(), fits.end(),
                    [](const Fit& a, const Fit& b) { return a.families.size() < b.families.size(); });
   std::vector<Fit> kept;
   for (Fit& fit : fits) {
-    const bool pays = std::all_of(kept.begin(), kept.end(), [&](const Fit& simpler) {
+    const bool worthwhile = std::all_of(kept.begin(), kept.end(), [&](const Fit& simpler) {
       if (simpler.families.empty()) return true;
       const double extra = double(fit.families.size()) - double(simpler.families.size());
-      return extra <= 0 || fit.log_evidence - simpler.log_evidence >= extra * addition_needed(model, simpler, none, t);
+      return extra <= 0 || pays(model, simpler, fit, addition_needed(model, simpler, none, t), extra);
     });
-    if (pays) kept.push_back(std::move(fit));
+    if (worthwhile) kept.push_back(std::move(fit));
   }
   return kept;
 }
@@ -76,7 +79,8 @@ double counts_left(const Model& model, const Fit& fit) {
   return std::max(0.0, model.counts_misfit(fit.predicted) - n - 3 * std::sqrt(2 * n)) / 2;
 }
 
-// A combination that predicts held-out runs worse than something simpler gives way to it.
+// A combination that predicts held-out runs worse than something simpler gives way to it; what shows in the commands
+// alone moves no track.
 void prefer_what_predicts(const Model& model, std::vector<Cause>& causes) {
   while (causes.front().fit.families.size() > 1) {
     const Cause& front = causes.front();
@@ -86,7 +90,7 @@ void prefer_what_predicts(const Model& model, std::vector<Cause>& causes) {
     if (simpler == causes.end()) return;
     const Closure with = held_out_closure(model, front.fit);
     const Closure without = held_out_closure(model, simpler->fit);
-    if (!with.known || with.after_mm <= without.after_mm) return;
+    if (!with.known || with.after_mm <= kAsGood * without.after_mm) return;
     causes.erase(causes.begin());
   }
 }
@@ -231,10 +235,10 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   d.overdispersion = std::max(1.0, best.residual / model.rows());
   d.explainable_fraction = explained / std::max(1e-9, explained + std::max(0.0, leftover));
   d.set = tied(d.causes, t);
-  // What explains most of the gap may be there, with something else.
-  if (d.causes.front().name == "unknown" && !best.families.empty() && explained > left_generic) {
-    d.set.push_back(best.name());
-  }
+  // What explains more than anything of no particular cause could is worth knowing, even where it is not the whole.
+  const bool worth_knowing = !best.families.empty() && explained > std::max(left_generic, kWorthKnowing * lack);
+  const bool there = std::find(d.set.begin(), d.set.end(), best.name()) != d.set.end();
+  if (d.causes.front().name == "unknown" && worth_knowing && !there) d.set.push_back(best.name());
   d.segments = segment_scores(model, none);
   if (d.segments.size() > 12) d.segments.resize(12);
   if (d.detected && !best.families.empty()) {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/error.h"
+#include "gap/addition.h"
 #include "gap/noise_floor.h"
 #include "gap/pattern_search.h"
 
@@ -12,7 +14,10 @@ namespace {
 
 constexpr std::size_t kSinglesFitted = 8;
 constexpr double kContradicted = 25;  // five standard deviations, squared
+constexpr std::size_t kBases = 2;     // fits that further effects are tried on
 constexpr std::size_t kAdditionsFitted = 4;
+constexpr std::size_t kSwapsFitted = 2;
+constexpr double kRivals = 0.8;    // share of an effect's gain that the screen must see in another in its place
 constexpr double kFarBehind = 20;  // log evidence
 constexpr int kHalvings = 3;
 constexpr int kMostTries = 110;  // simulations of all runs in the search for a place
@@ -51,104 +56,161 @@ Eigen::VectorXd searched_start(const Model& model, const Fit& base, const Screen
   return pattern_search(density, best, c.reach, min, max, kHalvings, kMostTries);
 }
 
-// Root mean square of what a fit changes in the whitened tracks.
-double seen_between(const Model& model, const Fit& base, const Fit& fit) {
-  double square = 0;
-  const auto change = model.columns(base.predicted, {fit.predicted}, {1});
-  for (std::size_t r = 0; r < change.size(); ++r) {
-    square += change[r].topRows(3 * Eigen::Index(model.filter(r).samples())).squaredNorm();
-  }
-  return std::sqrt(square / model.rows());
-}
-
 // Nothing is left but noise, as well as it is known.
 bool explains_all(const Model& model, const Fit& fit, const Thresholds& t) {
   return fit.misfit < (1 + t.noise_error) * model.rows();
 }
 
-}  // namespace
+// Forward from single effects, with a look back at what the first one should have been.
+class Search {
+ public:
+  Search(const Model& model, const Screen& screen, const Thresholds& thresholds)
+      : model_(model), screen_(screen), thresholds_(thresholds), none_(model.none()), fits_{none_} {}
 
-double addition_needed(const Model& model, const Fit& base, double none, const Thresholds& t) {
-  const double excess = std::max(0.0, base.misfit - (1 + t.noise_error) * model.rows());
-  return std::max(t.addition + t.addition_share * std::max(0.0, base.log_evidence - none), t.misfit_share * excess / 2);
-}
+  std::vector<Fit> run(const Say& say) {
+    say("fitting single effects");
+    fit_singles();
+    std::vector<Fit> frontier(fits_.begin() + 1, fits_.end());
+    for (int depth = 2; depth <= thresholds_.most_effects; ++depth) {
+      const std::vector<Fit> from = bases(std::move(frontier));
+      if (from.empty() || from.front().log_evidence < none_.log_evidence + thresholds_.detect) break;
+      say(depth == 2 ? "fitting pairs of effects" : "fitting combinations of three");
+      frontier.clear();
+      for (const Fit& base : from) add_to(base, frontier);
+      if (frontier.empty()) break;
+      swap_one(*std::max_element(frontier.begin(), frontier.end(), less_evidence), frontier);
+    }
+    return std::move(fits_);
+  }
 
-std::vector<Fit> search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say) {
-  std::vector<Fit> fits{model.none()};
-  say("fitting single effects");
-  const auto tried = [&](const Fit base, const Screen::Candidate& c) {
+ private:
+  static bool less_evidence(const Fit& a, const Fit& b) { return a.log_evidence < b.log_evidence; }
+
+  std::optional<Fit> tried(const Fit& base, const Screen::Candidate& c) const {
     std::vector<Family> families = base.families;
     families.push_back(c.family);
     try {
       Eigen::VectorXd start(base.p.size() + c.start.size());
-      start << base.p, searched_start(model, base, c);
-      Fit fit = model.fit(families, start);
-      fit.size = displacement_m(fit.predicted.tracks, base.predicted.tracks) / model.noise_floor_m();
-      fit.seen = seen_between(model, base, fit);
-      // What the counts speak against may not explain the tracks.
-      if (model.counts_misfit(fit.predicted) > model.counts_misfit(base.predicted) + kContradicted) return;
-      // What moves counts against commands, and not the robot, is seen there.
-      const double smallest = base.families.empty() ? thresholds.smallest : thresholds.smallest_addition;
-      const bool small = fit.size < smallest && fit.seen < thresholds.least_seen;
-      if (small && !shows_in_counts(find_effect(c.family.effect))) return;
-      fits.push_back(std::move(fit));
+      start << base.p, searched_start(model_, base, c);
+      Fit fit = model_.fit(families, start);
+      fit.size = displacement_m(fit.predicted.tracks, base.predicted.tracks) / model_.noise_floor_m();
+      fit.seen = std::sqrt(seen_between(model_, base, fit) / model_.rows());
+      if (plausible(base, fit)) return fit;
     } catch (const RunError&) {
       // A robot that cannot be simulated is no explanation,
     } catch (const InputError&) {
       // nor is one that does not stand at its start, on a cable or without a wheel's floor.
     }
-  };
-  std::vector<Screen::Candidate> singles = screen.on_top_of(fits.front());
-  const double best_gain = singles.empty() ? 0 : singles.front().gain;
-  for (std::size_t i = 0; i < singles.size(); ++i) {
-    // Where the simulator bends, the screen is only a hint: such families are tried a little longer.
-    const double needed = singles[i].family.from_zero ? 2 : 1;
-    if (singles[i].gain < needed) continue;
-    if (i >= kSinglesFitted && singles[i].gain < best_gain - 15) continue;
-    // Places and moments take many simulations: not where something else explains all that noise does not.
-    const bool explained = std::any_of(fits.begin() + 1, fits.end(), [&](const Fit& f) {
-      return explains_all(model, f, thresholds) && f.log_evidence - fits.front().log_evidence > singles[i].gain;
-    });
-    if (singles[i].reach.size() > 0 && explained) continue;
-    tried(fits.front(), singles[i]);
+    return std::nullopt;
   }
-  const double none = fits.front().log_evidence;
-  std::vector<Fit> frontier = fits;
-  for (int depth = 2; depth <= thresholds.most_effects; ++depth) {
-    std::vector<const Fit*> from;
-    for (const Fit& f : frontier) {
-      if (int(f.families.size()) == depth - 1) from.push_back(&f);
+
+  bool plausible(const Fit& base, const Fit& fit) const {
+    // What the counts speak against may not explain the tracks.
+    if (model_.counts_misfit(fit.predicted) > model_.counts_misfit(base.predicted) + kContradicted) return false;
+    // What moves counts against commands, and not the robot, is seen there.
+    const double smallest = base.families.empty() ? thresholds_.smallest : thresholds_.smallest_addition;
+    const bool small = fit.size < smallest && fit.seen < thresholds_.least_seen;
+    return !small || shows_in_counts(find_effect(fit.families.back().effect));
+  }
+
+  void fit_singles() {
+    const std::vector<Screen::Candidate> singles = screen_.on_top_of(none_);
+    const double best_gain = singles.empty() ? 0 : singles.front().gain;
+    for (std::size_t i = 0; i < singles.size(); ++i) {
+      // Where the simulator bends, the screen is only a hint: such families are tried a little longer.
+      const double needed = singles[i].family.from_zero ? 2 : 1;
+      if (singles[i].gain < needed) continue;
+      if (i >= kSinglesFitted && singles[i].gain < best_gain - 15) continue;
+      // Places and moments take many simulations: not where something else explains all that noise does not.
+      const bool explained = std::any_of(fits_.begin() + 1, fits_.end(), [&](const Fit& f) {
+        return explains_all(model_, f, thresholds_) && f.log_evidence - none_.log_evidence > singles[i].gain;
+      });
+      if (singles[i].reach.size() > 0 && explained) continue;
+      if (auto fit = tried(none_, singles[i])) fits_.push_back(std::move(*fit));
     }
-    std::sort(from.begin(), from.end(), [](const Fit* a, const Fit* b) { return a->log_evidence > b->log_evidence; });
-    // Go on from the best, and from a second that is nearly as good or explains something quite different.
-    if (from.size() > 2) from.resize(2);
-    const bool second_is_idle = from.size() == 2 && explains_all(model, *from[0], thresholds) &&
-                                from[1]->log_evidence < from[0]->log_evidence - kFarBehind;
+  }
+
+  // Where to go on: the best, and another that is nearly as good or explains something quite different.
+  std::vector<Fit> bases(std::vector<Fit> frontier) const {
+    std::stable_sort(frontier.begin(), frontier.end(), [](const Fit& a, const Fit& b) { return less_evidence(b, a); });
+    std::vector<Fit> from;
+    for (Fit& f : frontier) {
+      const bool other = std::none_of(from.begin(), from.end(), [&](const Fit& g) { return g.name() == f.name(); });
+      if (other && from.size() < kBases) from.push_back(std::move(f));
+    }
+    const bool second_is_idle = from.size() == 2 && explains_all(model_, from[0], thresholds_) &&
+                                from[1].log_evidence < from[0].log_evidence - kFarBehind;
     if (second_is_idle) from.resize(1);
-    if (from.empty() || from.front()->log_evidence < none + thresholds.detect) break;
-    say(depth == 2 ? "fitting pairs of effects" : "fitting combinations of three");
-    std::vector<Fit> next;
-    for (const Fit* base : from) {
-      const double needed = addition_needed(model, *base, none, thresholds);
+    return from;
+  }
+
+  // Fits of `base` and one effect more that pay.
+  void add_to(const Fit& base, std::vector<Fit>& paying) {
+    const Needed needed = addition_needed(model_, base, none_, thresholds_);
+    std::size_t fitted = 0;
+    for (const Screen::Candidate& c : screen_.on_top_of(base)) {
+      if (fitted == kAdditionsFitted) break;
+      double least = needed.of(c.family);
+      if (shows_in_counts(find_effect(c.family.effect))) least = std::min(least, needed.counts);
+      // The screen is linear: what falls a little short there may still pay in the simulator.
+      if (c.gain < 0.5 * least) continue;
+      auto fit = tried(base, c);
+      if (!fit) continue;
+      ++fitted;
+      if (!pays(model_, base, *fit, needed)) continue;
+      fits_.push_back(*fit);
+      paying.push_back(std::move(*fit));
+    }
+  }
+
+  // The first effect was chosen while the others were not there: each but the last is taken out, and what could stand
+  // in its place is tried.
+  void swap_one(const Fit& best, std::vector<Fit>& paying) {
+    const Fit whole = best;  // `paying` grows
+    for (std::size_t out = 0; out + 1 < whole.families.size(); ++out) {
+      const Fit base = without(whole, out);
+      const double worth = whole.log_evidence - base.log_evidence;
+      fits_.push_back(base);
       std::size_t fitted = 0;
-      for (const Screen::Candidate& c : screen.on_top_of(*base)) {
-        // The screen is linear: what falls a little short there may still pay in the simulator.
-        if (c.gain < 0.5 * needed || fitted == kAdditionsFitted) break;
-        const std::size_t before = fits.size();
-        tried(*base, c);
-        if (fits.size() == before) continue;
+      for (const Screen::Candidate& c : screen_.on_top_of(base)) {
+        if (c.family.effect == whole.families[out].effect) continue;
+        if (c.gain < kRivals * worth || fitted == kSwapsFitted) break;
+        auto fit = tried(base, c);
+        if (!fit) continue;
         ++fitted;
-        if (fits.back().log_evidence > base->log_evidence + needed) {
-          next.push_back(fits.back());
-        } else {
-          fits.pop_back();
-        }
+        if (!pays(model_, base, *fit, addition_needed(model_, base, none_, thresholds_))) continue;
+        fits_.push_back(*fit);
+        paying.push_back(std::move(*fit));
       }
     }
-    if (next.empty()) break;
-    frontier = std::move(next);
   }
-  return fits;
+
+  Fit without(const Fit& whole, std::size_t out) const {
+    std::vector<Family> families;
+    std::vector<double> start;
+    Eigen::Index at = 0;
+    for (std::size_t i = 0; i < whole.families.size(); ++i) {
+      const Eigen::Index n = Eigen::Index(whole.families[i].parameters.size());
+      if (i != out) {
+        families.push_back(whole.families[i]);
+        start.insert(start.end(), whole.p.data() + at, whole.p.data() + at + n);
+      }
+      at += n;
+    }
+    return model_.fit(families, Eigen::Map<Eigen::VectorXd>(start.data(), Eigen::Index(start.size())));
+  }
+
+  const Model& model_;
+  const Screen& screen_;
+  const Thresholds& thresholds_;
+  const Fit none_;
+  std::vector<Fit> fits_;
+};
+
+}  // namespace
+
+std::vector<Fit> search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say) {
+  return Search(model, screen, thresholds).run(say);
 }
 
 }  // namespace umbsim::gap

@@ -38,9 +38,6 @@ class Screen {
   Eigen::VectorXd prior_sd_;
 };
 
-/// Log evidence that a further effect must bring on top of `base`. `none`: log evidence of no effect.
-double addition_needed(const Model& model, const Fit& base, double none, const Thresholds& thresholds);
-
 /// Fits of no effect, of single effects, and of the combinations that pay, all in the simulator.
 std::vector<Fit> search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say);
 

@@ -1,14 +1,13 @@
 // The whole diagnosis on small simulated campaigns whose effect is known.
 #include "gap/diagnose.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <iostream>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <tbb/global_control.h>
 
 #include "gap/check.h"
 #include "gap/diagnosis_json.h"
@@ -26,8 +25,8 @@ struct Patient {
       : recording(std::move(r)),
         replay(scenario_of(recording, "."), recording),
         model(recording, testing::simulator(replay), Scatter{}) {}
-  Diagnosis diagnosed(const std::set<std::string>& excluded = {}) const {
-    return diagnose(model, excluded, Thresholds{}, [](const std::string&) {});
+  Diagnosis diagnosed(const std::set<std::string>& excluded = {}, const Thresholds& thresholds = {}) const {
+    return diagnose(model, excluded, thresholds, [](const std::string&) {});
   }
 
   Recording recording;
@@ -130,6 +129,29 @@ TEST(Diagnose, ACableOnTheFloorAndItsPlace) {
   const Diagnosis without = p.diagnosed({"bump"});
   std::cout << "without: " << text(without) << "\n";
   for (const Cause& c : without.causes) EXPECT_EQ(c.name.find("bump"), std::string::npos);
+}
+
+// Counts and habits show it as plainly beside a large error of the tracks as alone.
+TEST(Diagnose, WhatOnlyCommandsShowBesideALargeEffect) {
+  const Patient p(
+      campaign({effect("wheel_eccentricity", {{"right_m", 0.002}}), effect("fast_turning", {{"factor", 1.5}})}, 16));
+  const Diagnosis d = p.diagnosed();
+  std::cout << text(d) << "\n";
+  EXPECT_EQ(d.causes.front().name, "fast_turning+wheel_eccentricity");
+}
+
+TEST(Diagnose, ASmallEffectBesideALargeOne) {
+  const Patient p(campaign(
+      {effect("wheel_eccentricity", {{"right_m", 0.002}}), effect("wheel_radius_difference", {{"relative", 0.0006}})},
+      17));
+  const Diagnosis d = p.diagnosed();
+  std::cout << text(d) << "\n";
+  EXPECT_EQ(d.causes.front().name, "wheel_eccentricity+wheel_radius_difference");
+  expect_parameter(d, "relative", 0.0006);
+  // A share of the large one's evidence as its price would have hidden it.
+  Thresholds dear;
+  dear.addition_share = 0.015;
+  EXPECT_EQ(p.diagnosed({}, dear).causes.front().name, "wheel_eccentricity");
 }
 
 TEST(Diagnose, ProbabilitiesSumToOne) {

@@ -59,6 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Labelled{"case-03", "wheelbase", "relative", 0.01},
                       Labelled{"case-05", "carpet_drift", "metres_per_metre", 0.004},
                       Labelled{"case-06", "bump", "height_m", 0.006},
+                      Labelled{"case-09", "encoder_latency", "seconds", 0.1},
                       Labelled{"case-10", "push", "impulse_newton_seconds", 22},
                       Labelled{"case-11", "wheel_eccentricity", "right_m", 0.0015}, Labelled{"case-14", "none"}),
     [](const auto& test) { return std::string(test.param.folder).replace(4, 1, "_"); });

@@ -1,0 +1,52 @@
+#include "gap/addition.h"
+
+#include <algorithm>
+
+namespace umbsim::gap {
+
+namespace {
+
+// Variance by which an effect's signature may be off, another engine's robot for one: of the whole signature, for
+// nuisances like a clock's offset that take up most of it do not take up its error.
+constexpr double kSignatureError = 3e-4;
+
+bool adds_local(const Fit& base, const Fit& fit) {
+  return std::any_of(fit.families.begin(), fit.families.end(), [&](const Family& f) {
+    const auto same = [&](const Family& g) { return g.effect == f.effect; };
+    return f.search_cost > 0 && std::none_of(base.families.begin(), base.families.end(), same);
+  });
+}
+
+}  // namespace
+
+double seen_between(const Model& model, const Fit& base, const Fit& fit) {
+  double square = 0;
+  const auto change = model.columns(base.predicted, {fit.predicted}, {1});
+  for (std::size_t r = 0; r < change.size(); ++r) {
+    square += change[r].topRows(3 * Eigen::Index(model.filter(r).samples())).squaredNorm();
+  }
+  return square;
+}
+
+Needed addition_needed(const Model& model, const Fit& base, const Fit& none, const Thresholds& t) {
+  const double gained = std::max(0.0, base.log_evidence - none.log_evidence);
+  const double excess = std::max(0.0, base.misfit - (1 + t.noise_error) * model.rows());
+  const double counts_left = model.counts_misfit(base.predicted);
+  const double counts_gained = std::max(0.0, model.counts_misfit(none.predicted) - counts_left) / 2;
+  // Where much is left the noise model is too narrow for what it is asked: evidence in units of what is left.
+  const double spread = std::max(1.0, base.misfit / model.rows() - t.noise_error);
+  const double off = kSignatureError * seen_between(model, none, base) / 2;
+  const double own = spread * (t.addition + std::max(t.addition_share * gained, off));
+  // Counts and habits are measured as they are: no noise of the tracks, and no misfit of theirs, speaks against them.
+  return {std::max(own, t.misfit_share * excess / 2), std::max(own, t.local_misfit_share * excess / 2),
+          std::max(t.addition + t.counts_share * counts_gained, t.counts_misfit_share * counts_left / 2)};
+}
+
+bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& needed, double extra) {
+  const double gain = fit.log_evidence - base.log_evidence;
+  if (gain >= extra * (adds_local(base, fit) ? needed.local : needed.everywhere)) return true;
+  const double counts = (model.counts_misfit(base.predicted) - model.counts_misfit(fit.predicted)) / 2;
+  return std::min(gain, counts) >= extra * needed.counts;
+}
+
+}  // namespace umbsim::gap

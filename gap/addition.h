@@ -1,0 +1,25 @@
+#pragma once
+
+#include "gap/diagnose.h"
+
+namespace umbsim::gap {
+
+/// What a further effect must bring on top of a fit: log evidence.
+struct Needed {
+  double everywhere = 0;  ///< of an effect that acts on all runs
+  double local = 0;       ///< of one place or moment, which finds something to mend in any misfit
+  double counts = 0;      ///< or of counts against commands and of habits alone, where tracks say little
+
+  double of(const Family& family) const { return family.search_cost > 0 ? local : everywhere; }
+};
+
+/// Sum of squares of what a fit changes in the whitened tracks.
+double seen_between(const Model& model, const Fit& base, const Fit& fit);
+
+/// `none`: the fit of no effect.
+Needed addition_needed(const Model& model, const Fit& base, const Fit& none, const Thresholds& thresholds);
+
+/// Whether `fit`, with `extra` effects more than `base`, brings what they must.
+bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& needed, double extra = 1);
+
+}  // namespace umbsim::gap
