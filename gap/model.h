@@ -71,6 +71,8 @@ class Model {
   const Habits& habits() const { return measured_.habits; }
   int nuisances() const { return int(nuisances_.shared_sd.size()); }
   const Eigen::VectorXd& nuisance_sd() const { return nuisances_.shared_sd; }
+  /// Friction at which the robot begins to slip on these runs; 0: at none.
+  double slips_at() const { return nuisances_.slips_at; }
   std::vector<std::size_t> all_runs() const;
   double rows() const;  ///< numbers in all residuals that count
   double simulated_s() const { return simulated_s_; }
