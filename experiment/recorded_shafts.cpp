@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "recording/coarse_counts.h"
 #include "recording/encoder_clock.h"
 
 namespace umbsim {
@@ -92,6 +93,57 @@ std::vector<double> speeds(const std::vector<double>& angle, const std::vector<E
   return speed;
 }
 
+// Least squares of how much further a shaft turns than commanded, per commanded angle.
+double gain_of(const std::vector<double>& ahead, const std::vector<double>& turned) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (std::size_t i = 0; i < ahead.size(); ++i) {
+    n += 1;
+    x += turned[i];
+    y += ahead[i];
+    xx += turned[i] * turned[i];
+    xy += turned[i] * ahead[i];
+  }
+  const double spread = n * xx - x * x;
+  return spread > 0 ? (n * xy - x * y) / spread : 0;
+}
+
+struct Bounds {
+  double low = 0;
+  double high = 0;
+};
+
+// Bounds of a slow drift that is within `half` of every `ahead`, from the samples up to each.
+std::vector<Bounds> bounded(const std::vector<double>& ahead, const std::vector<double>& drift, double half) {
+  std::vector<Bounds> bounds;
+  Bounds b{ahead.front() - half, ahead.front() + half};
+  for (std::size_t i = 0; i < ahead.size(); ++i) {
+    b.low = std::min(std::max(b.low - drift[i], ahead[i] - half), ahead[i] + half);
+    b.high = std::max(std::min(b.high + drift[i], ahead[i] + half), ahead[i] - half);
+    bounds.push_back(b);
+  }
+  return bounds;
+}
+
+// How far a shaft is ahead of its commands, where counts say so in steps of twice `half` only. The moments of the steps
+// tell more than the counts in between: at rest a count may be half a step off for long.
+std::vector<double> between_steps(std::vector<double> ahead, const std::vector<double>& turned, double half) {
+  constexpr double kDrift = 1e-3;  // of commanded rotation, beyond a constant gain
+  const double gain = gain_of(ahead, turned);
+  std::vector<double> drift(ahead.size());
+  for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] -= gain * turned[i];
+  for (std::size_t i = 1; i < ahead.size(); ++i) drift[i] = kDrift * std::abs(turned[i] - turned[i - 1]);
+  const std::vector<Bounds> past = bounded(ahead, drift, half);
+  std::vector<double> reversed(ahead.rbegin(), ahead.rend());
+  std::vector<double> reversed_drift(ahead.size());
+  for (std::size_t i = 1; i < drift.size(); ++i) reversed_drift[i] = drift[drift.size() - i];
+  const std::vector<Bounds> future = bounded(reversed, reversed_drift, half);
+  for (std::size_t i = 0; i < ahead.size(); ++i) {
+    const Bounds& f = future[ahead.size() - 1 - i];
+    ahead[i] = (std::max(past[i].low, f.low) + std::min(past[i].high, f.high)) / 2 + gain * turned[i];
+  }
+  return ahead;
+}
+
 }  // namespace
 
 double measured_lag(const RecordedRun& run, double radians_per_tick, int steps) {
@@ -117,12 +169,16 @@ double measured_lag(const RecordedRun& run, double radians_per_tick, int steps) 
 }
 
 std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec, const EncoderFaults& faults,
-                          bool left, double lag_s, int steps) {
+                          bool left, double lag_s, int steps, double count_step) {
   const auto ticks = left ? &EncoderSample::left_ticks : &EncoderSample::right_ticks;
   const std::vector<EncoderSample>& s = run.encoders;
   const double k = 2 * M_PI / spec.ticks_per_revolution;
   std::vector<double> counts(s.size());
   for (std::size_t i = 0; i < s.size(); ++i) counts[i] = double(s[i].*ticks);
+  if (count_step > 1) {
+    counts = steps_counted(s, ticks, count_step);
+    for (double& c : counts) c *= count_step;
+  }
   join_latches(counts, s, spec.sampling_interval_s);
   std::vector<double> angle(s.size());
   for (std::size_t i = 1; i < s.size(); ++i) {
@@ -149,13 +205,15 @@ std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec
   const std::vector<double> asked = obeyed(s, command, late_s);
   const std::vector<double> turned = commanded(s, asked, steps);
   for (std::size_t i = 0; i < s.size(); ++i) angle[i] -= turned[i];
+  if (count_step > 1) angle = between_steps(std::move(angle), turned, k * count_step / 2);
   std::vector<double> speed = half_a_step_later(speeds(averaged(averaged(angle, kDriftHalf), kDriftHalf), s), steps);
   for (std::size_t i = 0; i < s.size(); ++i) speed[i] += asked[i];
   return speed;
 }
 
 std::vector<std::array<double, 2>> arrived(const std::vector<std::array<double, 2>>& shaft,
-                                           const std::vector<EncoderSample>& s, const EncoderSpec& spec) {
+                                           const std::vector<EncoderSample>& s, const EncoderSpec& spec,
+                                           double step_rad) {
   std::vector<std::array<double, 2>> counted = shaft;
   for (std::size_t w = 0; w < 2; ++w) {
     const EncoderFaults& faults = w == 0 ? spec.left : spec.right;
@@ -165,6 +223,8 @@ std::vector<std::array<double, 2>> arrived(const std::vector<std::array<double, 
       const double missed = std::min(0.9, faults.missed_probability + faults.missed_probability_per_radps * speed);
       counted[i][w] = counted[i - 1][w] + turned * (1 - missed);
     }
+    if (step_rad == 0) continue;
+    for (std::array<double, 2>& angle : counted) angle[w] = std::round(angle[w] / step_rad) * step_rad;
   }
   const double late_s = spec.latency_s + spec.sampling_interval_s / 2;
   if (late_s == 0) return counted;

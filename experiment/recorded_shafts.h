@@ -14,12 +14,15 @@ double measured_lag(const RecordedRun& run, double radians_per_tick, int steps);
 
 /// Speeds (rad/s) of a shaft at the encoder samples, from what arrived of its rotation through an encoder that reads
 /// late, latches, and misses counts (put back in the mean). Commands, where there are some, give the fine structure
-/// (`lag_s` late), counts the drift; otherwise the counts are smoothed.
+/// (`lag_s` late), counts the drift; otherwise the counts are smoothed. `count_step`: of counts coarser than they seem
+/// (recording/coarse_counts.h), which then bound the angle by half of it; 1 otherwise.
 std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec, const EncoderFaults& faults,
-                                 bool left, double lag_s, int steps);
+                                 bool left, double lag_s, int steps, double count_step);
 
-/// What such an encoder makes of shaft angles (left, right; radians) at its samples.
+/// What such an encoder makes of shaft angles (left, right; radians) at its samples. `step_rad`: to which it rounds; 0:
+/// not at all.
 std::vector<std::array<double, 2>> arrived(const std::vector<std::array<double, 2>>& shaft,
-                                           const std::vector<EncoderSample>& s, const EncoderSpec& spec);
+                                           const std::vector<EncoderSample>& s, const EncoderSpec& spec,
+                                           double step_rad);
 
 }  // namespace umbsim

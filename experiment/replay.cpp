@@ -7,10 +7,14 @@
 #include "effects/geometry.h"
 #include "experiment/drive_run.h"
 #include "experiment/recorded_shafts.h"
+#include "recording/coarse_counts.h"
 #include "recording/encoder_clock.h"
 
 namespace umbsim {
 namespace {
+
+// A supposed resolution within this share of what the counts show is theirs, which they show much finer.
+constexpr double kSameStep = 0.1;
 
 Pose2 between(const Pose2& a, const Pose2& b, double part) {
   return {a.x_m + part * (b.x_m - a.x_m), a.y_m + part * (b.y_m - a.y_m),
@@ -77,6 +81,7 @@ Replay::Replay(const Scenario& scenario, const Recording& recording)
   nominal_ = believed.robot;
   steps_ = std::max(1, int(std::ceil(1 / recording.encoder_rate_hz / scenario.physics.step_s - 1e-9)));
   scenario_.encoders.ticks_per_revolution = recording.robot.ticks_per_revolution;
+  count_step_ = umbsim::count_step(recording);
   for (const RecordedRun& run : recording.runs) {
     stretches_.push_back(umbsim::stretches(run, recording.robot));
     const bool track = recording.truth_kind == "track" && run.truth.size() > 20;
@@ -108,9 +113,16 @@ Rig Replay::rig(std::size_t index, const std::vector<Effect>& effects) const {
   return apply_effects(effects, std::move(rig));
 }
 
+// Width of the encoders' steps in counts of the recording, where they are supposed to be coarser and are; else 1.
+double Replay::coarse_step(const Rig& rig) const {
+  const double supposed = recording_.robot.ticks_per_revolution / rig.encoders.ticks_per_revolution;
+  return supposed > 1 && std::abs(std::log(supposed / count_step_)) < kSameStep ? count_step_ : 1;
+}
+
 std::vector<Pose2> Replay::poses(std::size_t index, const std::vector<Effect>& effects) const {
   const RecordedRun& run = recording_.runs[index];
   Rig r = rig(index, effects);
+  const double step = coarse_step(r);
   r.encoders.ticks_per_revolution = recording_.robot.ticks_per_revolution;
   // The ticks already say what the motors did.
   for (Motor& m : r.drivetrain.motor) {
@@ -118,8 +130,8 @@ std::vector<Pose2> Replay::poses(std::size_t index, const std::vector<Effect>& e
     m.lag_s = 0;
     m.deadband_radps = 0;
   }
-  const std::vector<double> left = shaft_speeds(run, r.encoders, r.encoders.left, true, lag_s_[index], steps_);
-  const std::vector<double> right = shaft_speeds(run, r.encoders, r.encoders.right, false, lag_s_[index], steps_);
+  const std::vector<double> left = shaft_speeds(run, r.encoders, r.encoders.left, true, lag_s_[index], steps_, step);
+  const std::vector<double> right = shaft_speeds(run, r.encoders, r.encoders.right, false, lag_s_[index], steps_, step);
   World world(r.robot, r.drivetrain, r.floor, scenario_.physics, timed(r.pushes, stretches_[index]));
   world.place(start_[index]);
   std::vector<Pose2> track;
@@ -144,7 +156,9 @@ std::vector<std::array<double, 2>> Replay::counts(std::size_t index, const std::
     world.advance(run.encoders[i].time_s - run.encoders[i - 1].time_s);
     shaft.push_back({world.encoder_angle(0), world.encoder_angle(1)});
   }
-  return arrived(shaft, run.encoders, r.encoders);
+  const double step = coarse_step(r);
+  const double step_rad = step > 1 ? 2 * M_PI / recording_.robot.ticks_per_revolution * step : 0;
+  return arrived(shaft, run.encoders, r.encoders, step_rad);
 }
 
 std::array<double, 5> Replay::habits(const std::vector<Effect>& effects) const {

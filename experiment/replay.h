@@ -26,8 +26,9 @@ class Replay {
   /// track. Throws RunError, InputError.
   std::vector<Pose2> poses(std::size_t run, const std::vector<Effect>& effects) const;
 
-  /// What the encoders would count, as angles in radians (left, right) and without rounding, at the times of the
-  /// encoder samples when the recorded commands are driven open loop. Lost counts are lost in the mean.
+  /// What the encoders would count, as angles in radians (left, right), at the times of the encoder samples when the
+  /// recorded commands are driven open loop. Lost counts are lost in the mean; rounded only to steps that are coarser
+  /// than the recording's counts.
   std::vector<std::array<double, 2>> counts(std::size_t run, const std::vector<Effect>& effects) const;
 
   /// Logarithms of what effects change in how the robot is driven and read: linear acceleration, angular acceleration,
@@ -36,6 +37,7 @@ class Replay {
 
  private:
   Rig rig(std::size_t run, const std::vector<Effect>& effects) const;
+  double coarse_step(const Rig& rig) const;
 
   Scenario scenario_;
   const Recording& recording_;
@@ -43,6 +45,7 @@ class Replay {
   std::vector<std::vector<Stretch>> stretches_;
   std::vector<Pose2> start_;   // of each run
   int steps_ = 1;              // of the simulator in one period of the encoders
+  double count_step_ = 1;      // width of the encoders' steps, in counts of the recording
   std::vector<double> lag_s_;  // of the counts behind the commands, per run
 };
 

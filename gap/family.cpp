@@ -134,7 +134,7 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution)
                         {{"trail_m", 0.03}, {"friction_nm", 0.1}}),
                  1.5),
       direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.04)}),
-      from_start(direct("slippery_floor", "friction", {{"friction", 0, 0.005, 0.2, 0.01, 0.8}}), 0.06),
+      from_start(direct("slippery_floor", "friction", {{"friction", 0, 2e-4, 0.2, 0.01, 0.8}}), 0.06),
       vector_family("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5),
       vector_family("carpet_drift", "metres_per_metre", "direction_rad", 1e-3, 0.008, 0.5),
   };

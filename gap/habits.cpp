@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <vector>
+
+#include "recording/coarse_counts.h"
 
 namespace umbsim::gap {
 namespace {
-
-constexpr std::size_t kFirstCounts = 30;  // that the coarse look at the counts takes in
 
 double median(std::vector<double> x) {
   if (x.empty()) return 0;
@@ -90,52 +89,6 @@ double sampling_ratio(const Recording& recording, const std::vector<std::vector<
   return changes > 20 ? moving / changes : 1;
 }
 
-// Coarseness of the counts: the largest step q such that all counts are multiples of it (rounded). 1 if none.
-double coarseness(const Recording& recording) {
-  std::vector<double> counts;
-  for (const EncoderSample& s : recording.runs.front().encoders) {
-    if (s.left_ticks != 0) counts.push_back(double(std::abs(s.left_ticks)));
-  }
-  if (counts.size() < 50) return 1;
-  double smallest = 1e9;
-  for (std::size_t i = 1; i < counts.size(); ++i) {
-    const double step = std::abs(counts[i] - counts[i - 1]);
-    if (step > 0) smallest = std::min(smallest, step);
-  }
-  if (smallest < 2 || smallest > 1e6) return 1;
-  std::sort(counts.begin(), counts.end());
-  const auto coherence = [&](double q, double up_to) {
-    std::complex<double> sum = 0;
-    double n = 0;
-    for (const double c : counts) {
-      if (c > up_to) break;
-      sum += std::polar(1.0, 2 * M_PI * c / q);
-      n += 1;
-    }
-    return n > 10 ? std::abs(sum) / n : 0;
-  };
-  // From a coarse look at the first counts to a fine one at all of them.
-  double best = smallest;
-  double width = 1;
-  const double enough = counts[std::min(counts.size() - 1, kFirstCounts)];
-  for (double up_to = std::max(smallest * 12, enough); width > 1e-6 * best; up_to *= 4) {
-    double top = -1;
-    const double centre = best;
-    for (int i = -40; i <= 40; ++i) {
-      const double q = centre + width * i / 40;
-      if (q < 1.5) continue;
-      const double value = coherence(q, up_to);
-      if (value > top) {
-        top = value;
-        best = q;
-      }
-    }
-    if (up_to > counts.back()) break;
-    width /= 4;
-  }
-  return coherence(best, counts.back()) > 0.8 ? best : 1;
-}
-
 }  // namespace
 
 Habits measured_habits(const Recording& recording, const std::vector<std::vector<Stretch>>& stretches) {
@@ -169,7 +122,7 @@ Habits measured_habits(const Recording& recording, const std::vector<std::vector
   }
   habits[3] = std::log(sampling_ratio(recording, stretches));
   if (habits[3] < 0.1) habits[3] = 0;
-  habits[4] = -std::log(coarseness(recording));
+  habits[4] = -std::log(count_step(recording));
   // What is hardly measured is as declared: ramps of one or two samples, a first or last step.
   for (double& h : habits) {
     if (std::abs(h) < 0.02) h = 0;

@@ -75,6 +75,8 @@ class Model {
   /// Whitened columns of a run's own nuisances; the first two are the radii of its wheels.
   const Eigen::MatrixXd& own_columns(std::size_t run) const { return nuisances_.own[run]; }
   double radius_scatter() const { return nuisances_.own_sd[0]; }  ///< of a wheel's radius from run to run
+  /// Friction at which the robot begins to slip on these runs; 0: at none.
+  double slips_at() const { return nuisances_.slips_at; }
   std::vector<std::size_t> all_runs() const;
   double rows() const;  ///< numbers in all residuals that count
   double simulated_s() const { return simulated_s_; }

@@ -48,25 +48,30 @@ Eigen::VectorXd shared_sd(const Groups& groups, const Scatter& s, bool tracker_f
   return sd;
 }
 
+struct LittleSlip {
+  std::vector<std::vector<Pose2>> tracks;
+  double friction = 0;
+};
+
 // Tracks with the floor just so slippery that the robot moves by `wanted_m`: engines, and tyres, differ in when exactly
 // they let go under a jolt. Empty if no floor is that slippery.
-std::vector<std::vector<Pose2>> little_slip(const NominalReplay& nominal, const Drive& drive, double wanted_m) {
+LittleSlip little_slip(const NominalReplay& nominal, const Drive& drive, double wanted_m) {
   Effect slippery = neutral_effect(find_effect("slippery_floor"));
   double grips = 0.8;
   double slips = 0.02;
-  std::vector<std::vector<Pose2>> tracks;
+  LittleSlip little;
   for (int i = 0; i < 7; ++i) {
     const double friction = std::sqrt(grips * slips);
     slippery.values.numbers = {friction};
     auto trial = drive({slippery});
     if (displacement_m(trial, nominal.tracks) > wanted_m) {
       slips = friction;
-      tracks = std::move(trial);
+      little = {std::move(trial), friction};
     } else {
       grips = friction;
     }
   }
-  return tracks;
+  return little;
 }
 
 std::vector<Kicks3> group_kicks(const NominalReplay& nominal, std::size_t run) {
@@ -126,7 +131,8 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   Effect creep = neutral_effect(find_effect("tyre_creep"));
   creep.values.numbers = {0, kCreep};
   const auto crept = drive({creep});
-  const auto slipped = little_slip(nominal, drive, scatter.slip_share * floor_m);
+  const auto [slipped, friction] = little_slip(nominal, drive, scatter.slip_share * floor_m);
+  n.slips_at = friction;
   for (std::size_t r = 0; r < nominal.runs(); ++r) {
     const Eigen::Index samples = Eigen::Index(filters[r].samples());
     Eigen::MatrixXd raw = Eigen::MatrixXd::Zero(3 * samples, n.shared_sd.size());

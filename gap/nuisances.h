@@ -37,6 +37,7 @@ struct Nuisances {
   std::vector<Eigen::MatrixXd> shared;  ///< one number for all runs
   Eigen::VectorXd own_sd;
   std::vector<Eigen::MatrixXd> own;     ///< a number of its own for each run
+  double slips_at = 0;                  ///< friction of the floor at which the wheels begin to let go; 0: at none
 };
 
 /// Tracks of all runs in the simulator under effects.

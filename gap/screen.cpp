@@ -96,7 +96,8 @@ Screen::Screen(const Model& model, const std::set<std::string>& excluded) : mode
   prior_sd_ = Eigen::Map<Eigen::VectorXd>(sd.data(), Eigen::Index(sd.size()));
 }
 
-// Wheels let go all at once: no derivative says how much grip is missing, so that it is tried.
+// Wheels let go all at once: no derivative says how much grip is missing, so that it is tried, in shares below the
+// friction at which this robot begins to slip on these runs. Some per cent less already moves it by many noise floors.
 void Screen::try_frictions(const Fit& fit, Candidate& c) const {
   std::vector<Family> families = fit.families;
   const double before = model_.density_at(families, fit.p);
@@ -104,13 +105,16 @@ void Screen::try_frictions(const Fit& fit, Candidate& c) const {
   Eigen::VectorXd p(fit.p.size() + 1);
   p << fit.p, 0;
   c.gain = -1e9;
-  for (const double friction : {0.2, 0.12, 0.08, 0.06, 0.05, 0.042, 0.036, 0.031}) {
+  if (model_.slips_at() == 0) return;
+  for (const double less : {-0.02, -0.01, 0.0, 0.01, 0.02, 0.035, 0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.6}) {
+    const double friction = model_.slips_at() * std::exp(-less);
     p[fit.p.size()] = friction;
     try {
       const double gain = model_.density_at(families, p) - before - kTryCost;
       if (gain <= c.gain) continue;
       c.gain = gain;
       c.start[0] = friction;
+      c.reach = vector_of({0.01 * friction});
     } catch (const RunError&) {
       // So little grip that the robot leaves its course.
     }

@@ -154,6 +154,18 @@ TEST(Diagnose, ASmallEffectBesideALargeOne) {
   EXPECT_EQ(p.diagnosed({}, dear).causes.front().name, "wheel_eccentricity");
 }
 
+// A few per cent of friction lie between no slip at all and many noise floors.
+TEST(Diagnose, AFloorThatIsHardlyTooSlippery) {
+  const double slips_at = Patient(campaign({}, 8)).model.slips_at();
+  ASSERT_GT(slips_at, 0);
+  const double friction = 0.97 * slips_at;
+  const Patient patient(campaign({effect("slippery_floor", {{"friction", friction}})}, 8));
+  const Diagnosis d = patient.diagnosed();
+  std::cout << text(d);
+  ASSERT_EQ(d.causes[0].name, "slippery_floor");
+  EXPECT_NEAR(d.causes[0].fit.p[0], friction, 0.01 * friction);
+}
+
 TEST(Diagnose, ProbabilitiesSumToOne) {
   Recording few = campaign({effect("wheelbase", {{"relative", 0.01}})}, 15, 1);
   const Diagnosis d = Patient(few).diagnosed();

@@ -103,6 +103,53 @@ TEST(ReplayOfCoarseTicks, LosesLessThanATick) {
   EXPECT_LT(d.end_m, tick_m / 0.340 * 2.83);
 }
 
+/// What a robot with a coarser encoder recorded, in the unit of the finer one that its owner believes in.
+Recording coarse(double ticks, double believed) {
+  Scenario s = squares(2, 1);
+  s.encoders.ticks_per_revolution = ticks;
+  Recording recording = run_experiment(s, 0).recording;
+  recording.robot.ticks_per_revolution = believed;
+  for (RecordedRun& run : recording.runs) {
+    for (EncoderSample& e : run.encoders) {
+      e.left_ticks = std::llround(double(e.left_ticks) * believed / ticks);
+      e.right_ticks = std::llround(double(e.right_ticks) * believed / ticks);
+    }
+  }
+  return recording;
+}
+
+// Steps of 3 mm at the wheels' rims shake the robot's heading by 9 mrad; their moments and the commands say better.
+TEST(ReplayOfCoarseTicks, AKnownResolutionIsUndone) {
+  const Recording recording = coarse(150, 2000);
+  const Replay replay(scenario_of(recording, "."), recording);
+  const auto worst_rad = [&](const std::vector<Effect>& effects) {
+    double worst = 0;
+    for (std::size_t r = 0; r < recording.runs.size(); ++r) {
+      const std::vector<Pose2> track = replay.poses(r, effects);
+      for (std::size_t k = 0; k < track.size(); ++k) {
+        worst = std::max(worst, std::abs(track[k].theta_rad - recording.runs[r].truth[k].X_WB.theta_rad));
+      }
+    }
+    return worst;
+  };
+  const double with = worst_rad({effect("encoder_resolution", {{"ticks_per_revolution", 152}})});
+  const double without = worst_rad({});
+  std::cout << fmt::format("heading off by up to {:.2f} mrad, {:.2f} mrad without the effect\n", 1000 * with,
+                           1000 * without);
+  EXPECT_LT(with, 1.2e-3);
+  EXPECT_GT(without, 4 * with);
+}
+
+TEST(ReplayOfCommands, CoarseEncodersCountInSteps) {
+  const Recording recording = coarse(150, 2000);
+  const Replay replay(scenario_of(recording, "."), recording);
+  const auto counts = replay.counts(0, {effect("encoder_resolution", {{"ticks_per_revolution", 152}})});
+  for (const auto& angle : counts) {
+    const double steps = angle[0] * 150 / (2 * M_PI);
+    ASSERT_NEAR(steps, std::round(steps), 0.01);
+  }
+}
+
 TEST(ReplayOfCommands, CountsWhatTheEncodersCounted) {
   for (const auto& effects : {std::vector<Effect>{}, {effect("encoder_missed_counts", {{"left_probability", 0.01}})},
                               {effect("encoder_latency", {{"seconds", 0.1}})},

@@ -1,0 +1,132 @@
+#include "recording/coarse_counts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace umbsim {
+namespace {
+
+constexpr std::size_t kFewCounts = 50;    // say nothing
+constexpr std::size_t kFirstCounts = 30;  // that the coarse look takes in
+constexpr std::size_t kCandidates = 200;  // narrow steps that are followed from one look to the next
+constexpr double kNarrowest = 1.05;
+constexpr double kNarrow = 3.2;  // up to here counts tell by those that never come
+
+// Different counts of the first run's left wheel, without sign, in order.
+std::vector<double> different_counts(const Recording& recording) {
+  std::vector<double> counts;
+  for (const EncoderSample& s : recording.runs.front().encoders) {
+    if (s.left_ticks != 0) counts.push_back(double(std::abs(s.left_ticks)));
+  }
+  std::sort(counts.begin(), counts.end());
+  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+  return counts;
+}
+
+double smallest_step(const Recording& recording) {
+  double smallest = 1e9;
+  const auto& e = recording.runs.front().encoders;
+  for (std::size_t i = 1; i < e.size(); ++i) {
+    if (e[i].left_ticks == 0 || e[i - 1].left_ticks == 0) continue;
+    const double step = std::abs(double(std::abs(e[i].left_ticks) - std::abs(e[i - 1].left_ticks)));
+    if (step > 0) smallest = std::min(smallest, step);
+  }
+  return smallest;
+}
+
+// How well counts agree on where between two steps they lie, 0 to 1.
+std::complex<double> coherence(const std::vector<double>& counts, double width, double up_to) {
+  std::complex<double> sum = 0;
+  double n = 0;
+  for (const double c : counts) {
+    if (c > up_to) break;
+    sum += std::polar(1.0, 2 * M_PI * c / width);
+    n += 1;
+  }
+  return n > 10 ? sum / n : 0;
+}
+
+// From a coarse look at the first counts to a fine one at all of them.
+double wide_step(const std::vector<double>& counts, double smallest) {
+  double best = smallest;
+  double width = 1;
+  const double enough = counts[std::min(counts.size() - 1, kFirstCounts)];
+  for (double up_to = std::max(smallest * 12, enough); width > 1e-6 * best; up_to *= 4) {
+    double top = -1;
+    const double centre = best;
+    for (int i = -40; i <= 40; ++i) {
+      const double q = centre + width * i / 40;
+      if (q < 1.5) continue;
+      const double value = std::abs(coherence(counts, q, up_to));
+      if (value > top) {
+        top = value;
+        best = q;
+      }
+    }
+    if (up_to > counts.back()) break;
+    width /= 4;
+  }
+  return std::abs(coherence(counts, best, counts.back())) > 0.8 ? best : 1;
+}
+
+struct Candidate {
+  double width = 0;
+  double evidence = 0;  // log, for counts being multiples of it rather than any
+  bool all = false;     // are multiples
+};
+
+Candidate candidate(const std::vector<double>& counts, double width, double up_to) {
+  const double miss = std::log(0.05);  // of a width that is nearly right
+  double n = 0;
+  double hits = 0;
+  for (const double c : counts) {
+    if (c > up_to) break;
+    n += 1;
+    hits += std::llround(std::round(c / width) * width) == std::llround(c);
+  }
+  return {width, hits * std::log(width) + (n - hits) * miss, hits > 0.995 * n};
+}
+
+// Steps of a few counts: rounding hides where they lie, but some counts never come.
+double narrow_step(const std::vector<double>& counts) {
+  double up_to = counts[std::min(counts.size() - 1, kFirstCounts)];
+  const auto apart = [&] { return 0.05 / up_to; };
+  std::vector<Candidate> kept;
+  for (double q = kNarrowest; q < kNarrow; q += apart() * q) kept.push_back(candidate(counts, q, up_to));
+  while (true) {
+    std::sort(kept.begin(), kept.end(), [](const Candidate& a, const Candidate& b) { return a.evidence > b.evidence; });
+    if (kept.size() > kCandidates) kept.resize(kCandidates);
+    if (up_to >= 16 * counts.back()) break;  // finer than all counts need, so that none is missed
+    const double before = apart();
+    up_to *= 4;
+    std::vector<Candidate> finer;
+    for (const Candidate& c : kept) {
+      for (int i = -2; i <= 2; ++i) finer.push_back(candidate(counts, c.width * (1 + before * i / 4), up_to));
+    }
+    kept = std::move(finer);
+  }
+  constexpr double kSure = 20;
+  return kept.front().all && kept.front().evidence > kSure ? kept.front().width : 1;
+}
+
+}  // namespace
+
+double count_step(const Recording& recording) {
+  const std::vector<double> counts = different_counts(recording);
+  if (counts.size() < kFewCounts) return 1;
+  const double smallest = smallest_step(recording);
+  if (smallest > 1e6) return 1;
+  return smallest < 3 ? narrow_step(counts) : wide_step(counts, smallest);
+}
+
+std::vector<double> steps_counted(const std::vector<EncoderSample>& samples, std::int64_t EncoderSample::*ticks,
+                                  double width) {
+  std::vector<double> counts;
+  for (const EncoderSample& s : samples) counts.push_back(double(s.*ticks));
+  const double between = std::arg(coherence(counts, width, 1e300)) / (2 * M_PI) * width;
+  for (double& c : counts) c = std::round((c - between) / width);
+  return counts;
+}
+
+}  // namespace umbsim

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "recording/recording.h"
+
+namespace umbsim {
+
+/// Width of the encoder's steps, in counts of the recording: all counts are multiples of it, rounded. 1 if they are as
+/// fine as they seem.
+double count_step(const Recording& recording);
+
+/// Numbers of such steps that one wheel's counts stand for. `width` > 1.
+std::vector<double> steps_counted(const std::vector<EncoderSample>& samples, std::int64_t EncoderSample::*ticks,
+                                  double width);
+
+}  // namespace umbsim

@@ -1,0 +1,51 @@
+// Counts that move in steps of several are recognised, and how wide the steps are.
+#include "recording/coarse_counts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace umbsim {
+namespace {
+
+/// A wheel that rolls on, rests and rolls back a little, unevenly, read through steps of `width` counts.
+Recording driven(double width, double start = 0) {
+  Recording recording;
+  RecordedRun run;
+  double angle = start;
+  for (int i = 0; i < 3000; ++i) {
+    const double speed = i % 500 < 350 ? 9.3 : i % 500 < 420 ? 0 : -4.1;
+    angle += speed * (1 + 0.2 * std::sin(0.7 * i * i));
+    const auto count = std::int64_t(std::llround(std::round(angle / width) * width));
+    run.encoders.push_back({0.02 * i, count, -count, 0, 0});
+  }
+  recording.runs.push_back(run);
+  return recording;
+}
+
+TEST(CoarseCounts, FineCountsAreFine) { EXPECT_EQ(count_step(driven(1)), 1); }
+
+TEST(CoarseCounts, TooFewCountsSayNothing) {
+  Recording recording = driven(7.3);
+  recording.runs[0].encoders.resize(40);
+  EXPECT_EQ(count_step(recording), 1);
+}
+
+TEST(CoarseCounts, WidthOfTheSteps) {
+  for (const double width : {1.1313, 1.2567, 1.8713, 2.0, 2.4147, 3.1, 6.735, 47.47}) {
+    // So exact that no step is miscounted over all of them.
+    EXPECT_NEAR(count_step(driven(width)), width, 0.25 * width * width / 15000) << width;
+  }
+}
+
+TEST(CoarseCounts, StepsAreCountedFromAnyStart) {
+  const Recording recording = driven(6.735, 6.735 * 100);
+  const auto& samples = recording.runs[0].encoders;
+  const std::vector<double> steps = steps_counted(samples, &EncoderSample::left_ticks, 6.735);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    ASSERT_NEAR((steps[i] - steps[0]) * 6.735, double(samples[i].left_ticks - samples[0].left_ticks), 1) << i;
+  }
+}
+
+}  // namespace
+}  // namespace umbsim
