@@ -20,6 +20,8 @@ EngineOptions read_engine(const YamlValue& value) {
   o.contact_time_s = map.number("contact_time_s", o.contact_time_s, {0, 1, true});
   o.contact_damping_ratio = map.number("contact_damping_ratio", o.contact_damping_ratio, {0, 100, true});
   o.servo_nms = map.number("servo_nms", o.servo_nms, {0, 1e6, true});
+  o.armature_kgm2 = map.number("armature_kgm2", o.armature_kgm2, Bounds::between(0, 1e3));
+  o.clock_offset_s = map.number("clock_offset_s", o.clock_offset_s, Bounds::between(0, 0.02));
   map.finish();
   return o;
 }

@@ -96,9 +96,11 @@ class Recorder {
         run_(run) {
     run_.has_commands = true;
   }
-  void note(int period, double time_s, const OwnOdometry& odometry, const WheelSpeeds& command, const Pose2& X_WB) {
+  void counts(double time_s, const OwnOdometry& odometry, const WheelSpeeds& command) {
     run_.encoders.push_back({time_s, std::llround(double(odometry.ticks[0]) * unit_),
                              std::llround(double(odometry.ticks[1]) * unit_), command.left_radps, command.right_radps});
+  }
+  void pose(int period, double time_s, const Pose2& X_WB) {
     if (period % stride_ != 0) return;
     const double sd = planned_.truth_position_sd_m;
     const double x = random_.normal(X_WB.x_m, sd), y = random_.normal(X_WB.y_m, sd);
@@ -131,10 +133,12 @@ void drive_run(const EngineOptions& options, const TrialDrive& drive, const Robo
     const double time_s = period * period_s;
     if (time_s > longest_s) throw RunError(fmt::format("{}: the robot does not arrive", run.id));
     odometry.read(time_s, robot);
-    recorder.note(period, time_s, odometry, command, robot.pose());
+    recorder.counts(time_s, odometry, command);
     command = driver.done() ? WheelSpeeds{} : driver.command(odometry.pose);
     if (driver.leg_begins()) robot.begin_leg(driver.leg());
-    robot.advance(command.left_radps, command.right_radps, period_s);
+    robot.advance(command.left_radps, command.right_radps, options.clock_offset_s);
+    recorder.pose(period, time_s, robot.pose());
+    robot.advance(command.left_radps, command.right_radps, period_s - options.clock_offset_s);
     rest += driver.done();
   }
 }

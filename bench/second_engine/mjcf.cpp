@@ -9,9 +9,9 @@ namespace umbsim::second_engine {
 namespace {
 
 constexpr double kGravity_mps2 = 9.81;
-constexpr double kRotorInertia_kgm2 = 0.01;  // behind a play
-constexpr double kPlayDamping_nms = 0.02;    // grease: a wheel in its play comes to rest
-constexpr double kLabmateMass_kg = 42;
+constexpr double kRotorInertia_kgm2 = 0.001;  // behind a play, without the armature
+constexpr double kPlayDamping_nms = 0.02;     // grease: a wheel in its play comes to rest
+constexpr double kLabmateEffort_nm = 20;
 constexpr double kLabmateRadius_m = 0.075;
 
 std::string text(const Eigen::Vector3d& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
@@ -47,13 +47,17 @@ std::string tyre(const Wheel& w, int i, const Rig& rig, const EngineOptions& o) 
       f.torsion_m, w.patch_width_m > 0 ? 4 : 3, affinity(i));
 }
 
+// A motor's gain goes with what it must move.
+double motor_size(const Wheel& w) { return w.effort_limit_nm / kLabmateEffort_nm * w.radius_m / kLabmateRadius_m; }
+
 // Behind a play the motor turns a rotor, in whose joint the wheel is free between two stops.
 std::string wheel_body(int i, const Rig& rig, const EngineOptions& o) {
   const Wheel& w = rig.robot.wheels[std::size_t(i)];
   const double toe_rad = std::atan2(-w.axis.x(), w.axis.y());
   const double half_play_rad = rig.drivetrain.motor[std::size_t(i)].backlash_rad / 2;
   const std::string place = fmt::format("pos='{}' euler='0 0 {}'", text(w.centre_m), toe_rad);
-  const std::string motor = fmt::format("<joint name='motor{}' type='hinge' axis='0 1 0'/>", i);
+  const std::string motor = fmt::format("<joint name='motor{}' type='hinge' axis='0 1 0' armature='{}'/>", i,
+                                        o.armature_kgm2 * motor_size(w));
   if (half_play_rad == 0) {
     return fmt::format("<body name='wheel{}' {}>{}{}</body>", i, place, motor, tyre(w, i, rig, o));
   }
@@ -102,10 +106,8 @@ std::string cable(const Cable& c) {
 
 std::string motor(int i, const Rig& rig, const EngineOptions& o) {
   const double limit_nm = rig.drivetrain.motor[std::size_t(i)].torque_limit_nm;
-  const double size = rig.robot.total_mass_kg() / kLabmateMass_kg *
-                      std::pow(rig.robot.wheels[std::size_t(i)].radius_m / kLabmateRadius_m, 2);
   return fmt::format("<velocity joint='motor{}' kv='{}' forcelimited='true' forcerange='{} {}'/>", i,
-                     o.servo_nms * size, -limit_nm, limit_nm);
+                     o.servo_nms * motor_size(rig.robot.wheels[std::size_t(i)]), -limit_nm, limit_nm);
 }
 
 std::string head(const Rig& rig, const EngineOptions& o) {
