@@ -6,13 +6,16 @@
 #include <tbb/parallel_for_each.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include "bench/second_engine/cases.h"
 #include "bench/second_engine/drive_case.h"
 #include "core/error.h"
 #include "core/progress.h"
+#include "core/random.h"
 #include "core/text_file.h"
 #include "gap/trial/trial_folder.h"
 

@@ -36,10 +36,8 @@ mjModel* load(const std::string& xml) {
 }
 
 struct Wheelwork {
-  int body = 0;
   int geom = 0;
   int motor = 0;  // index in qpos
-  int motor_dof = 0;
   int play = -1;  // index in qpos, -1: none
   double last_rad = 0;
   double radius_m = 0;
@@ -82,10 +80,8 @@ struct Robot::State {
       const auto id = [&](mjtObj type, const char* what) {
         return mj_name2id(model, type, fmt::format("{}{}", what, i).c_str());
       };
-      w.body = id(mjOBJ_BODY, "wheel");
       w.geom = id(mjOBJ_GEOM, "tyre");
       w.motor = model->jnt_qposadr[id(mjOBJ_JOINT, "motor")];
-      w.motor_dof = model->jnt_dofadr[id(mjOBJ_JOINT, "motor")];
       const int play = id(mjOBJ_JOINT, "play");
       if (play >= 0) w.play = model->jnt_qposadr[play];
       w.radius_m = rig.robot.wheels[std::size_t(i)].radius_m;
