@@ -39,6 +39,12 @@ Eigen::VectorXd vector_of(const std::vector<double>& x) {
   return Eigen::Map<const Eigen::VectorXd>(x.data(), Eigen::Index(x.size()));
 }
 
+std::vector<double> geometric(double from, double to, double ratio) {
+  std::vector<double> all;
+  for (double x = from; x <= to; x *= ratio) all.push_back(x);
+  return all;
+}
+
 // Every combination of the values of each number.
 Starts all_of(const std::vector<std::vector<double>>& values) {
   std::vector<std::vector<double>> all{{}};
@@ -141,9 +147,11 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
       const double height_m = std::clamp(0.5 * std::pow(3 * std::sqrt(R) * k.lost_m, 2.0 / 3), 0.001, 0.02);
       offer(bump_family(k.x_m, k.y_m, k.heading_rad), {vector_of({height_m, 0})}, {0.002, 0.02}, k.gain);
     }
-    offer(lift_family(k.x_m, k.y_m), all_of({{0.03, 0.08, 0.15}, {0}, {0}}), {0.02, 0.04, 0.04}, k.gain - 1);
-    offer(patch_family(k.x_m, k.y_m), all_of({{0.02, 0.035, 0.05}, {0.1, 0.25, 0.45}, {0}, {0}}),
-          {0.006, 0.06, 0.1, 0.1}, k.gain - 2);
+    // A few per cent of length, or of friction, decide how far a wheel gets that pulls against the other in a corner.
+    offer(lift_family(k.x_m, k.y_m), all_of({geometric(0.012, 0.25, 1.12), {0}, {0}}), {0.005, 0.02, 0.02}, k.gain - 1);
+    const double grips = model_.slips_at() > 0 ? model_.slips_at() : 0.05;
+    offer(patch_family(k.x_m, k.y_m), all_of({geometric(0.4 * grips, 1.05 * grips, 1.05), {0.1, 0.3}, {0}, {0}}),
+          {0.02 * grips, 0.06, 0.1, 0.1}, k.gain - 2);
   }
   if (kicks.moments.empty() || kicks.moments.front().gain < kLeastKick) return;
   const Kick& k = kicks.moments.front();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "core/error.h"
@@ -19,17 +20,17 @@ constexpr std::size_t kAdditionsFitted = 4;
 constexpr std::size_t kSwapsFitted = 2;
 constexpr double kRivals = 0.8;    // share of an effect's gain that the screen must see in another in its place
 constexpr double kFarBehind = 20;  // log evidence
-constexpr int kHalvings = 3;
+constexpr double kHint = 0.02;     // of what explains all, below which no place or moment is looked at
+constexpr int kHalvings = 4;
 constexpr int kMostTries = 110;  // simulations of all runs in the search for a place
 
-// Numbers of the candidate's family with which a fit on top of `base` begins.
-Eigen::VectorXd searched_start(const Model& model, const Fit& base, const Screen::Candidate& c) {
+// How well a candidate's numbers do on top of `base`.
+std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, const Fit& base, const Family& family) {
   std::vector<Family> families = base.families;
-  families.push_back(c.family);
-  const Eigen::Index own = base.p.size();
-  const auto density = [&](const Eigen::VectorXd& p) {
-    Eigen::VectorXd all(own + p.size());
-    all << base.p, p;
+  families.push_back(family);
+  return [&model, families, p = base.p](const Eigen::VectorXd& numbers) {
+    Eigen::VectorXd all(p.size() + numbers.size());
+    all << p, numbers;
     try {
       return model.density_at(families, all);
     } catch (const RunError&) {
@@ -38,22 +39,33 @@ Eigen::VectorXd searched_start(const Model& model, const Fit& base, const Screen
       return -1e300;  // it does not stand at its start, on a cable or without a wheel's floor
     }
   };
-  Eigen::VectorXd best = c.start;
-  double best_density = -1e300;
+}
+
+// The candidate with the best of its starts alone. Returns that one's log density.
+double keep_best_start(const Model& model, const Fit& base, Screen::Candidate& c) {
+  const auto density = density_on(model, base, c.family);
+  double best = -1e300;
   for (const Eigen::VectorXd& start : c.starts) {
     const double there = density(start);
-    if (there <= best_density) continue;
-    best_density = there;
-    best = start;
+    if (there <= best) continue;
+    best = there;
+    c.start = start;
   }
-  if (c.reach.size() == 0) return best;
-  Eigen::VectorXd min(best.size());
-  Eigen::VectorXd max(best.size());
-  for (Eigen::Index i = 0; i < best.size(); ++i) {
+  c.starts.clear();
+  return best;
+}
+
+// Numbers of the candidate's family with which a fit on top of `base` begins.
+Eigen::VectorXd searched_start(const Model& model, const Fit& base, Screen::Candidate c) {
+  keep_best_start(model, base, c);
+  if (c.reach.size() == 0) return c.start;
+  Eigen::VectorXd min(c.start.size());
+  Eigen::VectorXd max(c.start.size());
+  for (Eigen::Index i = 0; i < c.start.size(); ++i) {
     min[i] = c.family.parameters[std::size_t(i)].min;
     max[i] = c.family.parameters[std::size_t(i)].max;
   }
-  return pattern_search(density, best, c.reach, min, max, kHalvings, kMostTries);
+  return pattern_search(density_on(model, base, c.family), c.start, c.reach, min, max, kHalvings, kMostTries);
 }
 
 // Nothing is left but noise, as well as it is known.
@@ -114,20 +126,28 @@ class Search {
   }
 
   void fit_singles() {
-    const std::vector<Screen::Candidate> singles = screen_.on_top_of(none_);
+    std::vector<Screen::Candidate> singles = screen_.on_top_of(none_);
     const double best_gain = singles.empty() ? 0 : singles.front().gain;
     for (std::size_t i = 0; i < singles.size(); ++i) {
       // Where the simulator bends, the screen is only a hint: such families are tried a little longer.
       const double needed = singles[i].family.from_zero ? 2 : 1;
       if (singles[i].gain < needed) continue;
       if (i >= kSinglesFitted && singles[i].gain < best_gain - 15) continue;
-      // Places and moments take many simulations: not where something else explains all that noise does not.
-      const bool explained = std::any_of(fits_.begin() + 1, fits_.end(), [&](const Fit& f) {
-        return explains_all(model_, f, thresholds_) && f.log_evidence - none_.log_evidence > singles[i].gain;
-      });
-      if (singles[i].reach.size() > 0 && explained) continue;
+      if (!singles[i].starts.empty() && idle(singles[i])) continue;
       if (auto fit = tried(none_, singles[i])) fits_.push_back(std::move(*fit));
     }
+  }
+
+  // Places and moments take many simulations: not where something else explains all that noise does not, and more than
+  // they do where they begin.
+  bool idle(Screen::Candidate& c) const {
+    double rival = -1e300;
+    for (const Fit& f : fits_) {
+      if (explains_all(model_, f, thresholds_)) rival = std::max(rival, f.log_evidence - none_.log_evidence);
+    }
+    if (rival < c.gain) return false;
+    if (c.gain < kHint * rival) return true;
+    return keep_best_start(model_, none_, c) - none_.log_evidence < rival;
   }
 
   // Where to go on: the best, and another that is nearly as good or explains something quite different.

@@ -166,6 +166,18 @@ TEST(Diagnose, AFloorThatIsHardlyTooSlippery) {
   EXPECT_NEAR(d.causes[0].fit.p[0], friction, 0.01 * friction);
 }
 
+// A push explains nearly all of a weak patch in one run: both are looked at before one is taken for the other.
+TEST(Diagnose, ASlipperyPatchAtACorner) {
+  constexpr double kX_m = 1.95, kY_m = -0.17, kFriction = 0.043;
+  const Effect patch =
+      effect("slippery_patch", {{"x_m", kX_m}, {"y_m", kY_m}, {"radius_m", 0.1}, {"friction", kFriction}});
+  const Diagnosis d = Patient(campaign({patch}, 21)).diagnosed();
+  std::cout << text(d) << "\n";
+  ASSERT_EQ(d.causes.front().name, "slippery_patch");
+  EXPECT_NEAR(d.causes.front().fit.p[0], kFriction, 0.05 * kFriction);
+  EXPECT_LT(std::hypot(d.place_m[0] - kX_m, d.place_m[1] - kY_m), 0.2);
+}
+
 TEST(Diagnose, ProbabilitiesSumToOne) {
   Recording few = campaign({effect("wheelbase", {{"relative", 0.01}})}, 15, 1);
   const Diagnosis d = Patient(few).diagnosed();
