@@ -10,6 +10,15 @@ namespace {
 // nuisances like a clock's offset that take up most of it do not take up its error.
 constexpr double kSignatureError = 3e-4;
 
+// Toed wheels scrub, and how tyres give way to it is fitted with two numbers only: of what they explain, this share may
+// be another tyre's.
+constexpr double kScrubShare = 0.03;
+
+double share_that_may_err(const Fit& base, const Thresholds& t) {
+  const auto scrubs = [](const Family& f) { return bool(f.with); };
+  return std::any_of(base.families.begin(), base.families.end(), scrubs) ? kScrubShare : t.addition_share;
+}
+
 bool adds_local(const Fit& base, const Fit& fit) {
   return std::any_of(fit.families.begin(), fit.families.end(), [&](const Family& f) {
     const auto same = [&](const Family& g) { return g.effect == f.effect; };
@@ -36,7 +45,7 @@ Needed addition_needed(const Model& model, const Fit& base, const Fit& none, con
   // Where much is left the noise model is too narrow for what it is asked: evidence in units of what is left.
   const double spread = std::max(1.0, base.misfit / model.rows() - t.noise_error);
   const double off = kSignatureError * seen_between(model, none, base) / 2;
-  const double own = spread * (t.addition + std::max(t.addition_share * gained, off));
+  const double own = spread * (t.addition + std::max(share_that_may_err(base, t) * gained, off));
   // Counts and habits are measured as they are: no noise of the tracks, and no misfit of theirs, speaks against them.
   return {std::max(own, t.misfit_share * excess / 2), std::max(own, t.local_misfit_share * excess / 2),
           std::max(t.addition + t.counts_share * counts_gained, t.counts_misfit_share * counts_left / 2)};
@@ -46,7 +55,8 @@ bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& nee
   const double gain = fit.log_evidence - base.log_evidence;
   if (gain >= extra * (adds_local(base, fit) ? needed.local : needed.everywhere)) return true;
   const double counts = (model.counts_misfit(base.predicted) - model.counts_misfit(fit.predicted)) / 2;
-  return std::min(gain, counts) >= extra * needed.counts;
+  // What tracks speak for mostly they must pay for.
+  return counts > gain / 2 && std::min(gain, counts) >= extra * needed.counts;
 }
 
 }  // namespace umbsim::gap

@@ -9,8 +9,6 @@ struct Needed {
   double everywhere = 0;  ///< of an effect that acts on all runs
   double local = 0;       ///< of one place or moment, which finds something to mend in any misfit
   double counts = 0;      ///< or of counts against commands and of habits alone, where tracks say little
-
-  double of(const Family& family) const { return family.search_cost > 0 ? local : everywhere; }
 };
 
 /// Sum of squares of what a fit changes in the whitened tracks.
