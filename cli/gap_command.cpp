@@ -44,7 +44,7 @@ std::string folder_name(const std::string& path) {
 
 // The scenario with the diagnosed effects added; each effect once.
 std::string twin_yaml(Scenario scenario, const gap::Diagnosis& d) {
-  if (!d.causes.empty() && d.causes.front().name != "none" && d.causes.front().name != "unknown") {
+  if (!d.causes.empty() && d.causes.front().name != "none" && d.causes.front().name != "unknown" && !d.twin_is_nominal) {
     for (const Effect& e : gap::twin_effects(d.causes.front().fit)) {
       const auto there = std::find_if(scenario.effects.begin(), scenario.effects.end(),
                                       [&](const Effect& other) { return other.info == e.info; });

@@ -25,9 +25,9 @@ struct Thresholds {
   double smallest_addition = 0.5; ///< as `smallest`, of a further effect
   double noise_error = 0.1; ///< a misfit larger by this share is no news: three sd of two pairs of repeats
   double tie = 6;           ///< log evidence within which two explanations are not told apart
-  double known_share = 0.97; ///< of the explainable evidence that named effects must explain, or the cause is unknown
-  double least_closure = 0.3; ///< that the held-out closure's interval must reach, where something is left
-  double misfit_left = 0.5; ///< of the misfit beyond the noise, above which the cause is unknown, too
+  double known_share = 0.93; ///< of the explainable evidence that named effects must explain, or the cause is unknown
+  double least_closure = 0.3; ///< that the held-out closure's interval must reach, where half of the misfit is left
+  double misfit_left = 0.6; ///< of the misfit beyond the noise, above which the cause is unknown, too
   double beside_floor = 0.05; ///< share of the misfit that an effect beside an uneven floor must explain
   int most_effects = 3;
 };
@@ -82,6 +82,7 @@ struct Diagnosis {
   double unexplained_p = 1;
   std::string left_over;                    ///< description, empty if nothing is left
   Closure closure;
+  bool twin_is_nominal = false;             ///< nothing found that would foretell other runs
   NoiseModel noise;                         ///< as estimated from the runs
   double noise_floor_mm = 0;
   double before_mm = 0;                     ///< root mean square position error of the scenario as it was

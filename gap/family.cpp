@@ -124,6 +124,8 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution)
       direct("encoder_missed_counts", "right", {positive("right_probability", 1e-3, 0.005)}),
       direct("encoder_missed_counts", "left", {positive("left_probability", 1e-3, 0.005)}),
       both_miss(),
+      direct("encoder_missed_counts", "left and right",
+             {positive("left_probability", 1e-3, 0.005), positive("right_probability", 1e-3, 0.005)}),
       direct("encoder_missed_counts", "speed", {positive("probability_per_radps", 3e-4, 1e-3)}),
       direct("encoder_latency", "delay", {positive("seconds", 0.02, 0.1)}),
       direct("tyre_compliance", "both", {positive("metres_per_newton", 5e-7, 3e-6)}),
