@@ -150,8 +150,8 @@ class Search {
     std::size_t fitted = 0;
     for (const Screen::Candidate& c : screen_.on_top_of(base)) {
       if (fitted == kAdditionsFitted) break;
-      // The screen is linear: what falls short there, beside something large, may still pay in the simulator.
-      const double hint = std::max(0.5 * thresholds_.addition, std::min(0.1 * needed.everywhere, 0.5 * needed.counts));
+      const bool counts = shows_in_counts(find_effect(c.family.effect));
+      const double hint = counts ? std::min(needed.hint, 0.5 * needed.counts) : needed.hint;
       if (c.gain < (c.family.search_cost > 0 ? 0.5 * needed.local : hint)) continue;
       auto fit = tried(base, c);
       if (!fit) continue;
