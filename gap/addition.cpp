@@ -46,9 +46,15 @@ Needed addition_needed(const Model& model, const Fit& base, const Fit& none, con
   const double spread = std::max(1.0, base.misfit / model.rows() - t.noise_error);
   const double off = kSignatureError * seen_between(model, none, base) / 2;
   const double own = spread * (t.addition + std::max(share_that_may_err(base, t) * gained, off));
+  const double for_misfit = t.misfit_share * excess / 2;
+  Needed needed;
+  needed.everywhere = std::max(own, for_misfit);
+  needed.local = std::max(own, t.local_misfit_share * excess / 2);
   // Counts and habits are measured as they are: no noise of the tracks, and no misfit of theirs, speaks against them.
-  return {std::max(own, t.misfit_share * excess / 2), std::max(own, t.local_misfit_share * excess / 2),
-          std::max(t.addition + t.counts_share * counts_gained, t.counts_misfit_share * counts_left / 2)};
+  needed.counts = std::max(t.addition + t.counts_share * counts_gained, t.counts_misfit_share * counts_left / 2);
+  // The screen is linear: beside something large an effect may bring ten times what it sees.
+  needed.hint = std::max({0.5 * t.addition, 0.1 * own, 0.5 * for_misfit});
+  return needed;
 }
 
 bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& needed, double extra) {

@@ -9,6 +9,7 @@ struct Needed {
   double everywhere = 0;  ///< of an effect that acts on all runs
   double local = 0;       ///< of one place or moment, which finds something to mend in any misfit
   double counts = 0;      ///< or of counts against commands and of habits alone, where tracks say little
+  double hint = 0;        ///< what the linear screen must see of it, for a fit to be tried
 };
 
 /// Sum of squares of what a fit changes in the whitened tracks.

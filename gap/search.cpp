@@ -17,6 +17,7 @@ constexpr std::size_t kSinglesFitted = 8;
 constexpr double kContradicted = 25;  // five standard deviations, squared
 constexpr std::size_t kBases = 2;     // fits that further effects are tried on
 constexpr std::size_t kAdditionsFitted = 4;
+constexpr std::size_t kClimbs = 2;
 constexpr std::size_t kSwapsFitted = 2;
 constexpr double kRivals = 0.8;    // share of an effect's gain that the screen must see in another in its place
 constexpr double kFarBehind = 20;  // log evidence
@@ -168,11 +169,15 @@ class Search {
   void add_to(const Fit& base, std::vector<Fit>& paying) {
     const Needed needed = addition_needed(model_, base, none_, thresholds_);
     std::size_t fitted = 0;
+    std::size_t climbed = 0;
     for (const Screen::Candidate& c : screen_.on_top_of(base)) {
       if (fitted == kAdditionsFitted) break;
-      // The screen is linear: what falls short there, beside something large, may still pay in the simulator.
-      const double hint = std::max(0.5 * thresholds_.addition, std::min(0.1 * needed.everywhere, 0.5 * needed.counts));
+      // A climb to a place or a moment takes more simulations than all other fits.
+      if (c.reach.size() > 1 && climbed == kClimbs) continue;
+      const bool counts = shows_in_counts(find_effect(c.family.effect));
+      const double hint = counts ? std::min(needed.hint, 0.5 * needed.counts) : needed.hint;
       if (c.gain < (c.family.search_cost > 0 ? 0.5 * needed.local : hint)) continue;
+      if (c.reach.size() > 1) ++climbed;
       auto fit = tried(base, c);
       if (!fit) continue;
       ++fitted;
@@ -194,6 +199,7 @@ class Search {
       for (const Screen::Candidate& c : screen_.on_top_of(base)) {
         if (c.family.effect == whole.families[out].effect) continue;
         if (c.gain < kRivals * worth || fitted == kSwapsFitted) break;
+        if (c.reach.size() > 1) continue;
         auto fit = tried(base, c);
         if (!fit) continue;
         ++fitted;
