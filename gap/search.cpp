@@ -18,6 +18,8 @@ constexpr double kContradicted = 25;  // five standard deviations, squared
 constexpr std::size_t kBases = 2;     // fits that further effects are tried on
 constexpr std::size_t kAdditionsFitted = 4;
 constexpr std::size_t kClimbs = 2;
+constexpr int kRounds = 7;
+constexpr int kFewerRounds = 4;  // what is there already has been fitted
 constexpr std::size_t kSwapsFitted = 2;
 constexpr double kRivals = 0.8;    // share of an effect's gain that the screen must see in another in its place
 constexpr double kFarBehind = 20;  // log evidence
@@ -105,7 +107,7 @@ class Search {
     try {
       Eigen::VectorXd start(base.p.size() + c.start.size());
       start << base.p, searched_start(model_, base, c);
-      Fit fit = model_.fit(families, start);
+      Fit fit = model_.fit(families, start, base.families.empty() ? kRounds : kFewerRounds);
       fit.size = displacement_m(fit.predicted.tracks, base.predicted.tracks) / model_.noise_floor_m();
       fit.seen = std::sqrt(seen_between(model_, base, fit) / model_.rows());
       if (plausible(base, fit)) return fit;
