@@ -9,6 +9,7 @@ namespace {
 // Variance by which an effect's signature may be off, another engine's robot for one: of the whole signature, for
 // nuisances like a clock's offset that take up most of it do not take up its error.
 constexpr double kSignatureError = 3e-4;
+constexpr double kMost = 0.5;  // of the misfit
 
 // Toed wheels scrub, and how tyres give way to it is fitted with two numbers only: of what they explain, this share may
 // be another tyre's.
@@ -24,6 +25,11 @@ bool adds_local(const Fit& base, const Fit& fit) {
     const auto same = [&](const Family& g) { return g.effect == f.effect; };
     return f.search_cost > 0 && std::none_of(base.families.begin(), base.families.end(), same);
   });
+}
+
+// Squares, in standard deviations, that a fit leaves beyond noise.
+double excess(const Model& model, const Fit& fit) {
+  return std::max(0.0, fit.misfit - (1 + Thresholds{}.noise_error) * model.rows());
 }
 
 }  // namespace
@@ -59,7 +65,10 @@ Needed addition_needed(const Model& model, const Fit& base, const Fit& none, con
 
 bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& needed, double extra) {
   const double gain = fit.log_evidence - base.log_evidence;
-  if (gain >= extra * (adds_local(base, fit) ? needed.local : needed.everywhere)) return true;
+  // What leaves most of the misfit as it was mends an error of the model, as any effect could.
+  const bool leaves_most = excess(model, fit) > kMost * excess(model, base);
+  const bool dear = leaves_most || adds_local(base, fit);
+  if (gain >= extra * (dear ? needed.local : needed.everywhere)) return true;
   const double counts = (model.counts_misfit(base.predicted) - model.counts_misfit(fit.predicted)) / 2;
   // What tracks speak for mostly they must pay for.
   return counts > gain / 2 && std::min(gain, counts) >= extra * needed.counts;

@@ -168,7 +168,9 @@ TEST(PlanMenu, EveryKindBothWays) {
   const auto menu = plan_menu(path, 0.2, 15);
   for (std::size_t i = 0; i < menu.size(); ++i) EXPECT_EQ(menu[i].run.direction, i % 2 == 0 ? "cw" : "ccw");
   for (const MenuRun& m : menu) {
-    if (m.run.turn_radius_m) EXPECT_LT(*m.run.turn_radius_m, path.side_m / 2);
+    if (m.run.turn_radius_m) {
+      EXPECT_LT(*m.run.turn_radius_m, path.side_m / 2);
+    }
   }
 }
 
