@@ -1,5 +1,7 @@
 #include "gap/uneven_floor.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,7 +28,25 @@ struct Shifted {
   Pose2 X_WB;
   Eigen::Vector2d shift_m;
   int leg = 0;
+  Eigen::Vector4d wheels = Eigen::Vector4d::Zero();  ///< cosines and sines of the wheels' angles
 };
+
+// What goes with a wheel's angle is no floor: taken out in the robot's frame, for each run.
+void without_ripples(std::vector<Shifted>& run) {
+  Eigen::Matrix4d A = 1e-9 * Eigen::Matrix4d::Identity();
+  Eigen::Matrix<double, 4, 2> b = Eigen::Matrix<double, 4, 2>::Zero();
+  const auto turned = [](const Shifted& s, double way) {
+    return Eigen::Vector2d(Eigen::Rotation2Dd(way * s.X_WB.theta_rad) * s.shift_m);
+  };
+  for (const Shifted& s : run) {
+    A += s.wheels * s.wheels.transpose();
+    b += s.wheels * turned(s, -1).transpose();
+  }
+  const Eigen::Matrix<double, 4, 2> x = A.ldlt().solve(b);
+  for (Shifted& s : run) {
+    s.shift_m -= Eigen::Rotation2Dd(s.X_WB.theta_rad) * Eigen::Vector2d(x.transpose() * s.wheels);
+  }
+}
 
 // What remains of a leg's track errors when a straight line through the neighbourhood is taken out.
 void detrend(std::vector<Shifted>& leg, const std::vector<double>& way_m, std::vector<Shifted>& into) {
@@ -53,6 +73,13 @@ std::vector<Shifted> shifts_of(const Model& model, const Fit& fit, std::size_t r
   const auto& truth = model.recording().runs[r].truth;
   const Eigen::VectorXd error = track_error(fit.predicted.tracks[r], model.nominal().truth[r]);
   std::vector<Shifted> result;
+  std::vector<Eigen::Vector4d> wheels(1, Eigen::Vector4d(1, 1, 0, 0));
+  std::array<double, 2> angle{};
+  for (std::size_t k = 1; k < truth.size(); ++k) {
+    for (std::size_t w = 0; w < 2; ++w)
+      angle[w] += model.nominal().wheels_m[r][k][w] / model.recording().robot.wheel_radius_m;
+    wheels.emplace_back(std::cos(angle[0]), std::cos(angle[1]), std::sin(angle[0]), std::sin(angle[1]));
+  }
   for (const Stretch& s : model.stretches(r)) {
     if (s.kind != Stretch::Kind::leg) continue;
     std::vector<Shifted> leg;
@@ -64,7 +91,7 @@ std::vector<Shifted> shifts_of(const Model& model, const Fit& fit, std::size_t r
       if (way < kEnds_m || way > std::abs(s.length_m) - kEnds_m) continue;
       const double c = std::cos(truth[k].X_WB.theta_rad), sn = std::sin(truth[k].X_WB.theta_rad);
       const double along = error[3 * Eigen::Index(k)], across = error[3 * Eigen::Index(k) + 1];
-      leg.push_back({truth[k].X_WB, {c * along - sn * across, sn * along + c * across}, s.leg});
+      leg.push_back({truth[k].X_WB, {c * along - sn * across, sn * along + c * across}, s.leg, wheels[k]});
       way_m.push_back(way);
     }
     detrend(leg, way_m, result);
@@ -234,9 +261,15 @@ std::array<double, 2> rms_and_wavelength(const Covariance& c, double height_m, d
 std::optional<UnevenFloorFound> find_uneven_floor(const Model& model, const Fit& fit) {
   if (model.recording().truth_kind != "track") return {};
   std::vector<Passes> runs;
-  for (const std::size_t r : model.all_runs()) runs.emplace_back(shifts_of(model, fit, r));
-  const Agreement turned = agreement(runs, true);
-  const Agreement alike = agreement(runs, false);
+  std::vector<Passes> smooth;
+  for (const std::size_t r : model.all_runs()) {
+    std::vector<Shifted> shifts = shifts_of(model, fit, r);
+    runs.emplace_back(shifts);
+    without_ripples(shifts);
+    smooth.emplace_back(std::move(shifts));
+  }
+  const Agreement turned = agreement(smooth, true);
+  const Agreement alike = agreement(smooth, false);
   if (int(turned.blocks_m2.size()) < kLeastBlocks || turned.sigmas() < kLeastSigmas) return {};
   if (turned.mean_m2() < kLeastShare * alike.mean_m2()) return {};
   const double height_m = model.recording().robot.wheel_radius_m;

@@ -1,0 +1,134 @@
+// Uneven floors from passes in different directions, the floor of closure, and what the catalogue lacks.
+#include "gap/uneven_floor.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "gap/command_features.h"
+#include "gap/diagnose.h"
+#include "gap/track_misfit.h"
+#include "tests/gap/recordings.h"
+
+namespace umbsim::gap {
+namespace {
+
+using testing::campaign;
+using testing::effect;
+
+struct Patient {
+  explicit Patient(Recording r)
+      : recording(std::move(r)),
+        replay(scenario_of(recording, "."), recording),
+        model(recording, testing::simulator(replay), Scatter{}) {}
+  Diagnosis diagnosed(const std::set<std::string>& excluded = {}) const {
+    return diagnose(model, excluded, Thresholds{}, [](const std::string&) {});
+  }
+
+  Recording recording;
+  Replay replay;
+  Model model;
+};
+
+/// With squares that begin a quarter turn further: they pass the legs of the others the other way.
+Recording turned_campaign(const std::vector<Effect>& hidden, std::uint64_t seed) {
+  Recording all = campaign(hidden, seed);
+  Scenario turned = testing::squares(2, 1);
+  testing::add_noise(turned, seed + 3000);
+  turned.effects = hidden;
+  turned.runs.start_heading_rad = M_PI / 2;
+  for (RecordedRun run : run_experiment(turned, 0).recording.runs) {
+    run.id = run.direction + "-turned";
+    all.runs.push_back(run);
+  }
+  return all;
+}
+
+const Effect kUneven = effect("uneven_floor", {{"rms_m", 0.002}, {"wavelength_m", 0.5}, {"seed", 5}});
+
+TEST(UnevenFloor, HeightAndWavelengthFromTheShiftsOfPasses) {
+  const Patient p(turned_campaign({kUneven}, 21));
+  const auto found = find_uneven_floor(p.model, p.model.none());
+  ASSERT_TRUE(found);
+  std::cout << fmt::format("{:.1f} standard errors, rms {:.2f} mm of 2, wavelength {:.3f} m of 0.5\n", found->sigmas,
+                           1000 * found->rms_m, found->wavelength_m);
+  EXPECT_NEAR(found->rms_m, 0.002, 0.35 * 0.002);
+  EXPECT_NEAR(found->wavelength_m, 0.5, 0.35 * 0.5);
+}
+
+TEST(UnevenFloor, NotOnAFlatFloorNorFromPassesInOneDirection) {
+  const Patient flat(turned_campaign({effect("wheelbase", {{"relative", 0.01}})}, 22));
+  EXPECT_FALSE(find_uneven_floor(flat.model, flat.model.none()));
+  const Patient eccentric(turned_campaign({effect("wheel_eccentricity", {{"left_m", 0.001}})}, 23));
+  EXPECT_FALSE(find_uneven_floor(eccentric.model, eccentric.model.none()));
+  const Patient one_way(campaign({kUneven}, 21));
+  EXPECT_FALSE(find_uneven_floor(one_way.model, one_way.model.none()));
+}
+
+TEST(UnevenFloor, IsNamedAndStaysOutOfTheTwin) {
+  const Patient p(turned_campaign({kUneven}, 21));
+  const Diagnosis d = p.diagnosed();
+  ASSERT_EQ(d.causes.front().name, "uneven_floor");
+  EXPECT_EQ(d.stage, "floor");
+  EXPECT_FALSE(d.has_place);
+  EXPECT_TRUE(twin_effects(d.causes.front().fit).empty());
+  EXPECT_EQ(p.diagnosed({"uneven_floor"}).causes.front().name, "unknown");
+}
+
+// What all turns share is no noise, even if no effect of the catalogue is allowed to say so.
+TEST(Unknown, AWheelbaseThatTheCatalogueLacks) {
+  const Patient p(turned_campaign({effect("wheelbase", {{"relative", -0.004}})}, 24));
+  EXPECT_EQ(p.diagnosed().causes.front().name, "wheelbase");
+  EXPECT_EQ(p.diagnosed({"wheelbase"}).causes.front().name, "unknown");
+}
+
+// Robots with nothing wrong stray by what the noise model foretells, in the mean over several campaigns.
+TEST(TrackMisfit, NoiseAloneMakesWhatIsForetold) {
+  double measured = 0;
+  double foretold = 0;
+  constexpr int kCampaigns = 6;
+  for (std::uint64_t seed = 0; seed < kCampaigns; ++seed) {
+    const Recording recording = campaign({}, 40 + seed);
+    const Replay replay(scenario_of(recording, "."), recording);
+    NoiseModel noise;
+    // var(heading) = 2 k^2 / b^2 per metre of both wheels.
+    noise.heading_rad2_pm = 2 * std::pow(1e-4 / recording.robot.wheelbase_m, 2);
+    noise.along_m2_pm = 0.5e-8;
+    Scatter scatter;
+    scatter.radius = 3e-5;
+    const Model model(recording, testing::simulator(replay), scatter, noise);
+    measured += mean_square_error_m2(model, model.none().predicted.tracks);
+    for (const auto& run : noise_misfits_m2(model, 100)) {
+      for (const double square : run) foretold += square / 100 / double(recording.runs.size());
+    }
+  }
+  std::cout << fmt::format("root mean square {:.2f} mm, foretold {:.2f} mm\n", 1000 * std::sqrt(measured / kCampaigns),
+                           1000 * std::sqrt(foretold / kCampaigns));
+  EXPECT_GT(measured, 0.5 * foretold);
+  EXPECT_LT(measured, 2 * foretold);
+}
+
+TEST(MotorScatter, GainsDifferFromRunToRun) {
+  Scenario s = testing::squares(1, 8);
+  s.noise.motor_scatter = 0.002;
+  const Recording recording = run_experiment(s, 0).recording;
+  s.noise.motor_scatter = 0;
+  const Recording exact = run_experiment(s, 0).recording;
+  const auto gains = [](const Recording& r, std::size_t run) {
+    const CommandFeatures f = command_features(r.runs[run], counted_rad(r.runs[run], r.robot));
+    return Eigen::Vector2d(f.left_gain, f.right_gain);
+  };
+  double square = 0;
+  for (std::size_t r = 0; r < recording.runs.size(); ++r) {
+    square += (gains(recording, r) - gains(exact, r)).squaredNorm();
+    EXPECT_LT((gains(exact, r) - gains(exact, r % 2)).norm(), 1e-4) << "runs of a direction are alike";
+  }
+  const double sd = std::sqrt(square / double(2 * recording.runs.size()));
+  std::cout << fmt::format("scatter of 32 gains {:.5f} of 0.002\n", sd);
+  EXPECT_NEAR(sd, 0.002, 0.0007);
+}
+
+}  // namespace
+}  // namespace umbsim::gap
