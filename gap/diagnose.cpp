@@ -1,9 +1,10 @@
 #include "gap/diagnose.h"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <map>
+
+#include <boost/math/distributions/chi_squared.hpp>
 
 #include "gap/addition.h"
 #include "gap/closure.h"
@@ -203,8 +204,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   if (d.detected) {
     // An explanation that leaves much, or that foretells nothing of the other conditions, is none.
     d.closure = held_out_closure(model, best);
-    const bool foretells =
-        !d.closure.known || d.closure.ci95[1] > t.least_closure || explained > leftover;
+    const bool foretells = !d.closure.known || d.closure.ci95[1] > t.least_closure || explained > leftover;
     bool unknown = d.unexplained && (!foretells || explained < t.known_share * (explained + left_generic) ||
                                      lack > t.misfit_left * lack_none);
     if (unknown && excluded.count("uneven_floor") == 0) {
@@ -225,7 +225,9 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
                      [](const Cause& a, const Cause& b) { return a.score > b.score; });
     if (d.unexplained) d.left_over = describe_left_over(model, best);
     const bool misleads = d.closure.known && d.closure.fraction < 0;
-    if (misleads && !unknown) d.limits.push_back("what was found foretells the other runs badly: the twin goes without it");
+    if (misleads && !unknown) {
+      d.limits.push_back("what was found foretells the other runs badly: the twin goes without it");
+    }
     d.twin_is_nominal = unknown || misleads;
     if (d.twin_is_nominal) add_nothing(d.closure);
   }

@@ -17,6 +17,7 @@
 #include "core/progress.h"
 #include "core/random.h"
 #include "core/text_file.h"
+#include "gap/trial/answers.h"
 #include "gap/trial/trial_folder.h"
 
 namespace umbsim::second_engine {
@@ -71,16 +72,6 @@ Scales severity_scales(const CaseList& list, const TrialSimulator& simulator) {
                                                    simulator);
   });
   return scales;
-}
-
-Json effect_json(const Effect& effect) {
-  Json json = Json::object();
-  for (std::size_t i = 0; i < effect.info->parameters.size(); ++i) {
-    const EffectParameter& p = effect.info->parameters[i];
-    if (effect.values.numbers[i] != p.neutral) json[p.name] = effect.values.numbers[i];
-  }
-  if (!effect.values.run.empty()) json["run"] = effect.values.run;
-  return json;
 }
 
 Json answer_of(const Case& c, const Scales* scales) {

@@ -6,7 +6,6 @@
 #include "core/yaml_reader.h"
 
 namespace umbsim {
-namespace {
 
 Json effect_json(const Effect& effect) {
   Json json = Json::object();
@@ -17,6 +16,8 @@ Json effect_json(const Effect& effect) {
   if (!effect.values.run.empty()) json["run"] = effect.values.run;
   return json;
 }
+
+namespace {
 
 TrueEffect read_effect(const YamlValue& value) {
   YamlMap map(value);

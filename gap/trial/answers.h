@@ -31,6 +31,9 @@ struct Answer {
 /// By case name.
 using Answers = std::map<std::string, Answer>;
 
+/// Parameters of an effect that are not neutral, and its run.
+Json effect_json(const Effect& effect);
+
 /// What the answers file says of a generated case.
 Json answer_json(const TrialCase& drawn, const std::vector<ScaledEffect>& effects);
 

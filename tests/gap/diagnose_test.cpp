@@ -11,28 +11,14 @@
 
 #include "gap/check.h"
 #include "gap/diagnosis_json.h"
-#include "tests/gap/recordings.h"
+#include "tests/gap/patient.h"
 
 namespace umbsim::gap {
 namespace {
 
 using testing::campaign;
+using testing::Patient;
 using testing::effect;
-
-/// A recording with what is needed to diagnose it, kept together: they refer to each other.
-struct Patient {
-  explicit Patient(Recording r)
-      : recording(std::move(r)),
-        replay(scenario_of(recording, "."), recording),
-        model(recording, testing::simulator(replay), Scatter{}) {}
-  Diagnosis diagnosed(const std::set<std::string>& excluded = {}) const {
-    return diagnose(model, excluded, Thresholds{}, [](const std::string&) {});
-  }
-
-  Recording recording;
-  Replay replay;
-  Model model;
-};
 
 std::string text(const Diagnosis& d) {
   std::string all = fmt::format("detected {}, {}, set {}", d.detected, d.stage, fmt::join(d.set, " "));

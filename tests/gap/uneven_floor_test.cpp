@@ -10,27 +10,14 @@
 #include "gap/command_features.h"
 #include "gap/diagnose.h"
 #include "gap/track_misfit.h"
-#include "tests/gap/recordings.h"
+#include "tests/gap/patient.h"
 
 namespace umbsim::gap {
 namespace {
 
 using testing::campaign;
+using testing::Patient;
 using testing::effect;
-
-struct Patient {
-  explicit Patient(Recording r)
-      : recording(std::move(r)),
-        replay(scenario_of(recording, "."), recording),
-        model(recording, testing::simulator(replay), Scatter{}) {}
-  Diagnosis diagnosed(const std::set<std::string>& excluded = {}) const {
-    return diagnose(model, excluded, Thresholds{}, [](const std::string&) {});
-  }
-
-  Recording recording;
-  Replay replay;
-  Model model;
-};
 
 /// With squares that begin a quarter turn further: they pass the legs of the others the other way.
 Recording turned_campaign(const std::vector<Effect>& hidden, std::uint64_t seed) {
