@@ -45,12 +45,14 @@ std::string folder_name(const std::string& path) {
 // The scenario with the diagnosed effects added; each effect once.
 std::string twin_yaml(Scenario scenario, const gap::Diagnosis& d) {
   if (!d.causes.empty() && d.causes.front().name != "none" && d.causes.front().name != "unknown" && !d.twin_is_nominal) {
-    for (const Effect& e : gap::twin_effects(d.causes.front().fit)) {
-      const auto there = std::find_if(scenario.effects.begin(), scenario.effects.end(),
-                                      [&](const Effect& other) { return other.info == e.info; });
-      if (there == scenario.effects.end()) scenario.effects.push_back(e);
+    std::vector<Effect> once;
+    for (const Effect& e : combined(scenario.effects, gap::twin_effects(d.causes.front().fit))) {
+      const auto there =
+          std::find_if(once.begin(), once.end(), [&](const Effect& other) { return other.info == e.info; });
+      if (there == once.end()) once.push_back(e);
       else *there = e;
     }
+    scenario.effects = std::move(once);
   }
   return resolved_yaml(scenario);
 }

@@ -110,7 +110,9 @@ void predict(const PredictArguments& a) {
       fs::absolute(a.recording / fs::path(".")).lexically_normal().parent_path().filename().string();
   const std::string out = a.out.empty() ? "results/" + base + "-prediction" : a.out;
   prepare_output_folder(out, a.force);
-  const Replay replay(scenario, recording);
+  Scenario without = scenario;
+  without.effects.clear();
+  const Replay replay(without, recording);
   std::vector<Scores> all;
   for (const gap::Prediction& p : predictions(replay, scenario.effects, a.squares)) all.push_back(scores(recording, p));
   write_folder(out, a.force, [&](const fs::path& into) {

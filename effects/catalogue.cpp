@@ -3,6 +3,19 @@
 #include <algorithm>
 
 namespace umbsim {
+namespace {
+
+bool has_place(const EffectInfo& info) {
+  return std::any_of(info.parameters.begin(), info.parameters.end(),
+                     [](const EffectParameter& p) { return p.name == "x_m"; });
+}
+
+// Where 0 stands for the scenario's own value.
+bool replaces(const EffectInfo& info) {
+  return info.name == "slippery_floor" || info.name == "encoder_resolution" || info.name == "encoder_sampling";
+}
+
+}  // namespace
 
 const char* name(Stage stage) {
   constexpr const char* kNames[] = {"geometry", "drivetrain", "encoder", "contact", "floor", "measurement"};
@@ -41,6 +54,24 @@ std::vector<Effect> read_effects(const YamlValue& value) {
   }
   map.finish();
   return effects;
+}
+
+std::vector<Effect> combined(std::vector<Effect> believed, const std::vector<Effect>& more) {
+  for (const Effect& e : more) {
+    const auto there = std::find_if(believed.begin(), believed.end(), [&](const Effect& b) { return b.info == e.info; });
+    if (there == believed.end() || e.info->one_run || has_place(*e.info)) {
+      believed.push_back(e);
+    } else if (replaces(*e.info)) {
+      *there = e;
+    } else {
+      for (std::size_t i = 0; i < e.values.numbers.size(); ++i) {
+        const EffectParameter& p = e.info->parameters[i];
+        double& x = there->values.numbers[i];
+        x = std::clamp(x + e.values.numbers[i] - p.neutral, p.bounds.min, p.bounds.max);
+      }
+    }
+  }
+  return believed;
 }
 
 Rig apply_effects(const std::vector<Effect>& effects, Rig rig) {

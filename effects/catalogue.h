@@ -67,6 +67,11 @@ Effect neutral_effect(const EffectInfo& info);
 /// Reads the map `effects:`. Parameters that are left out are neutral. Throws InputError.
 std::vector<Effect> read_effects(const YamlValue& value);
 
+/// `believed` with `more` on top. An effect that both have has its parameters' departures from neutral added, within
+/// their bounds; where 0 stands for «the scenario's» the new value goes; effects of a place or of one run stand beside
+/// each other.
+std::vector<Effect> combined(std::vector<Effect> believed, const std::vector<Effect>& more);
+
 /// The rig with all effects applied, in the order of the catalogue.
 Rig apply_effects(const std::vector<Effect>& effects, Rig rig);
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "effects/geometry.h"
+#include "experiment/demanded.h"
 #include "experiment/drive_run.h"
 #include "experiment/recorded_shafts.h"
 #include "recording/coarse_counts.h"
@@ -82,6 +83,7 @@ Replay::Replay(const Scenario& scenario, const Recording& recording)
   steps_ = std::max(1, int(std::ceil(1 / recording.encoder_rate_hz / scenario.physics.step_s - 1e-9)));
   scenario_.encoders.ticks_per_revolution = recording.robot.ticks_per_revolution;
   count_step_ = umbsim::count_step(recording);
+  as_declared_ = asked({});
   for (const RecordedRun& run : recording.runs) {
     stretches_.push_back(umbsim::stretches(run, recording.robot));
     const bool track = recording.truth_kind == "track" && run.truth.size() > 20;
@@ -110,7 +112,7 @@ Rig Replay::rig(std::size_t index, const std::vector<Effect>& effects) const {
     const Eigen::Vector3d com = rig.robot.base.com_m;
     apply(LoadShift{*run.payload_kg, com.x(), com.y(), com.z()}, rig);
   }
-  return apply_effects(effects, std::move(rig));
+  return apply_effects(combined(scenario_.effects, effects), std::move(rig));
 }
 
 // Width of the encoders' steps in counts of the recording, where they are supposed to be coarser and are; else 1.
@@ -161,12 +163,26 @@ std::vector<std::array<double, 2>> Replay::counts(std::size_t index, const std::
   return arrived(shaft, run.encoders, r.encoders, step_rad);
 }
 
-std::array<double, 5> Replay::habits(const std::vector<Effect>& effects) const {
+Habits Replay::asked(const Demand& demand) const {
+  const Recording course = demanded(recording_, demand);
+  std::vector<std::vector<Stretch>> all;
+  for (const RecordedRun& run : course.runs) all.push_back(umbsim::stretches(run, course.robot));
+  return measured_habits(course, all, 1);
+}
+
+Habits Replay::habits(const std::vector<Effect>& effects) const {
   const Rig r = rig(0, effects);
   const double period_s = 1 / recording_.encoder_rate_hz;
-  return {std::log(r.demand.acceleration_factor), std::log(r.demand.acceleration_factor * r.demand.turn_speed_factor),
-          std::log(r.demand.turn_speed_factor), std::log(std::max(1.0, r.encoders.sampling_interval_s / period_s)),
-          std::log(r.encoders.ticks_per_revolution / recording_.robot.ticks_per_revolution)};
+  Habits h{};
+  const double accelerations = std::log(r.demand.acceleration_factor);
+  const double turns = std::log(r.demand.turn_speed_factor);
+  if (accelerations != 0 || turns != 0) {
+    h = asked(r.demand);
+    for (std::size_t i = 0; i < 3; ++i) h[i] -= as_declared_[i];
+  }
+  h[3] = std::log(std::max(1.0, r.encoders.sampling_interval_s / period_s));
+  h[4] = std::log(r.encoders.ticks_per_revolution / recording_.robot.ticks_per_revolution);
+  return h;
 }
 
 Scenario scenario_of(const Recording& recording, const std::string& directory) {

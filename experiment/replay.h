@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "experiment/scenario.h"
+#include "recording/habits.h"
 #include "recording/recording.h"
 #include "recording/stretches.h"
 
@@ -13,8 +14,9 @@ namespace umbsim {
 /// shaft turns as the encoder says, seen through the encoder's faults backwards) or from the recorded commands.
 class Replay {
  public:
-  /// `scenario` describes the robot and floor as the experimenter believes them; its course and runs are not used. The
-  /// wheel radius and wheelbase that the recording states go before the URDF's. Throws InputError.
+  /// `scenario` describes the robot and floor as the experimenter believes them: its effects act in every replay, below
+  /// those asked for; its course and runs are not used. The wheel radius and wheelbase that the recording states go
+  /// before the URDF's. Throws InputError.
   Replay(const Scenario& scenario, const Recording& recording);
 
   const Recording& recording() const { return recording_; }
@@ -31,19 +33,20 @@ class Replay {
   /// than the recording's counts.
   std::vector<std::array<double, 2>> counts(std::size_t run, const std::vector<Effect>& effects) const;
 
-  /// Logarithms of what effects change in how the robot is driven and read: linear acceleration, angular acceleration,
-  /// speed of turns, sampling interval over the reading period (0 if shorter), resolution over the recorded one.
-  std::array<double, 5> habits(const std::vector<Effect>& effects) const;
+  /// How the robot is driven and read under effects, as it would show in the recording.
+  Habits habits(const std::vector<Effect>& effects) const;
 
  private:
   Rig rig(std::size_t run, const std::vector<Effect>& effects) const;
   double coarse_step(const Rig& rig) const;
+  Habits asked(const Demand& demand) const;
 
   Scenario scenario_;
   const Recording& recording_;
   RobotModel nominal_;
   std::vector<std::vector<Stretch>> stretches_;
   std::vector<Pose2> start_;   // of each run
+  Habits as_declared_{};       // what shows where the course is driven as it was declared
   int steps_ = 1;              // of the simulator in one period of the encoders
   double count_step_ = 1;      // width of the encoders' steps, in counts of the recording
   std::vector<double> lag_s_;  // of the counts behind the commands, per run

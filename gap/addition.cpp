@@ -10,6 +10,7 @@ namespace {
 // nuisances like a clock's offset that take up most of it do not take up its error.
 constexpr double kSignatureError = 3e-4;
 constexpr double kMost = 0.5;  // of the misfit
+constexpr double kPlain = 2.5;  // times what counts must show
 
 // Toed wheels scrub, and how tyres give way to it is fitted with two numbers only: of what they explain, this share may
 // be another tyre's.
@@ -70,8 +71,9 @@ bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& nee
   const bool dear = leaves_most || adds_local(base, fit);
   if (gain >= extra * (dear ? needed.local : needed.everywhere)) return true;
   const double counts = (model.counts_misfit(base.predicted) - model.counts_misfit(fit.predicted)) / 2;
-  // What tracks speak for mostly they must pay for.
-  return counts > gain / 2 && std::min(gain, counts) >= extra * needed.counts;
+  // What tracks speak for mostly they must pay for, unless most of what counts show is at stake.
+  const bool by_counts = counts > gain / 2 || counts >= extra * kPlain * needed.counts;
+  return by_counts && std::min(gain, counts) >= extra * needed.counts;
 }
 
 }  // namespace umbsim::gap

@@ -18,7 +18,7 @@ namespace umbsim::gap {
 namespace {
 
 constexpr double kAsGood = 1.001;      // held-out error of a combination, over that of something simpler
-constexpr double kWorthKnowing = 0.2;  // what effects explain, over the misfit that they leave
+constexpr double kWorthKnowing = 0.05; // what effects explain, over the misfit that they leave
 constexpr double kOverconfidence = 2;  // evidence is divided by this before it becomes probability
 
 double tail(double chi_squared, double degrees_of_freedom) {
@@ -80,13 +80,15 @@ double counts_left(const Model& model, const Fit& fit) {
   return std::max(0.0, model.counts_misfit(fit.predicted) - n - 3 * std::sqrt(2 * n)) / 2;
 }
 
-// A combination that predicts held-out runs worse than something simpler gives way to it; what shows in the commands
-// alone moves no track.
-void prefer_what_predicts(const Model& model, std::vector<Cause>& causes) {
+// A combination that predicts held-out runs worse than something simpler gives way to it, unless counts and commands
+// tell it from that: they show what moves no track.
+void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const Thresholds& t) {
   while (causes.front().fit.families.size() > 1) {
     const Cause& front = causes.front();
+    const double counts = model.counts_misfit(front.fit.predicted);
     const auto simpler = std::find_if(causes.begin(), causes.end(), [&](const Cause& c) {
-      return !c.fit.families.empty() && c.fit.families.size() < front.fit.families.size();
+      return !c.fit.families.empty() && c.fit.families.size() < front.fit.families.size() &&
+             model.counts_misfit(c.fit.predicted) < counts + 2 * t.addition;
     });
     if (simpler == causes.end()) return;
     const Closure with = held_out_closure(model, front.fit);
@@ -178,7 +180,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   fits = worth_their_cost(model, std::move(fits), t);
   d.causes = ranked(fits, t);
   say("held-out runs");
-  prefer_what_predicts(model, d.causes);
+  prefer_what_predicts(model, d.causes, t);
   say("what no effect explains");
   const double generic_none = generic_gain(model, none) + counts_left(model, none);
   const double lack_none = lack_of_fit(model, none, t);

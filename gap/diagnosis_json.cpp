@@ -13,8 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr int kDraws = 2000;
-// What a replay is off by that no residual shows, standard deviations, from the development trial (docs/gap.md).
-constexpr double kReplayShare = 0.02;  // of a size, against its neutral value
+// What a replay is off by that no residual shows, standard deviations, from development trials (docs/gap.md).
+constexpr double kReplayShare = 0.03;  // of a size, against its neutral value
 constexpr double kReplayAngle_rad = 0.01;
 constexpr double kReplayPlace_m = 0.005;
 constexpr double kReplayMoment_s = 0.01;

@@ -58,6 +58,28 @@ Family both_miss() {
   return family;
 }
 
+// A payload that nobody told of, by its moments about the axle's middle; the rest of its mass lies over that.
+Family load() {
+  const EffectInfo& info = find_effect("load_shift");
+  const EffectValues base = neutral_effect(info).values;
+  const std::size_t mass = index_of(info, "payload_kg");
+  const std::size_t ahead = index_of(info, "ahead_m");
+  const std::size_t left = index_of(info, "left_m");
+  Family family{"load_shift", "payload",
+                {positive("payload_kg", 1, 5), signed_one("ahead_kgm", 0.2, 1), signed_one("left_kgm", 0.2, 1)},
+                {}, {}, true, 0};
+  constexpr double kArm_m = 0.15;
+  family.values = [=](const Eigen::VectorXd& p) {
+    EffectValues values = base;
+    const double m = p[0] + std::hypot(p[1], p[2]) / kArm_m;
+    values.numbers[mass] = m;
+    values.numbers[ahead] = m > 0 ? p[1] / m : 0;
+    values.numbers[left] = m > 0 ? p[2] / m : 0;
+    return values;
+  };
+  return family;
+}
+
 // Both wheels off their centres, each by its own two components.
 Family both_eccentric() {
   const Family left = vector_family("wheel_eccentricity", "left_m", "left_phase_rad", 5e-4, 1e-3, 0.02);
@@ -128,6 +150,7 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution)
              {positive("left_probability", 1e-3, 0.005), positive("right_probability", 1e-3, 0.005)}),
       direct("encoder_missed_counts", "speed", {positive("probability_per_radps", 3e-4, 1e-3)}),
       direct("encoder_latency", "delay", {positive("seconds", 0.02, 0.1)}),
+      load(),
       direct("tyre_compliance", "both", {positive("metres_per_newton", 5e-7, 3e-6)}),
       direct("contact_patch", "width", {positive("width_m", 0.01, 0.03)}),
       direct("tyre_creep", "along and across", {{"along", 0, 5e-3, 0.02, 0, 0.1}, {"across", 0, 5e-3, 0.02, 0, 0.1}}),

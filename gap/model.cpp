@@ -9,10 +9,12 @@
 
 #include "gap/noise_estimate.h"
 #include "gap/noise_floor.h"
+#include "recording/coarse_counts.h"
 
 namespace umbsim::gap {
 namespace {
 
+constexpr Habits kHabitsSd{0.1, 0.1, 0.05, 0.05, 0.05};  // with which they are measured
 constexpr int kFeatureRows = 8;  // three of a run, and five of the recording, which stand with the first run
 
 bool acts_on_counts(const std::vector<Effect>& effects) {
@@ -42,12 +44,14 @@ std::string Fit::name() const {
 Model::Model(const Recording& recording, Simulator simulator, const Scatter& scatter,
              const std::optional<NoiseModel>& known)
     : recording_(recording), simulator_(std::move(simulator)), scatter_(scatter) {
+  const double step = count_step(recording);
+  step_rad_ = step * 2 * M_PI / recording.robot.ticks_per_revolution;
   for (const RecordedRun& run : recording.runs) {
     stretches_.push_back(umbsim::stretches(run, recording.robot));
     measured_.counted.push_back(
-        run.has_commands ? command_features(run, counted_rad(run, recording.robot)) : CommandFeatures{});
+        run.has_commands ? command_features(run, counted_rad(run, recording.robot), step_rad_) : CommandFeatures{});
   }
-  measured_.habits = measured_habits(recording, stretches_);
+  measured_.habits = measured_habits(recording, stretches_, step);
   without_effects_ = predict({{}}).front();
   nominal_ = beside(recording, without_effects_.tracks);
   const NoiseEstimate estimate = known ? NoiseEstimate{*known, false} : estimate_noise(nominal_);
@@ -77,7 +81,7 @@ std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& se
     all[i / runs].tracks[r] = simulator_.ticks(r, effects);
     const bool counts = recording_.runs[r].has_commands && simulator_.commands;
     if (counts && (effects.empty() || acts_on_counts(effects))) {
-      all[i / runs].counted[r] = command_features(recording_.runs[r], simulator_.commands(r, effects));
+      all[i / runs].counted[r] = command_features(recording_.runs[r], simulator_.commands(r, effects), step_rad_);
     }
   });
   for (const RecordedRun& run : recording_.runs) simulated_s_ += double(sets.size()) * run.encoders.back().time_s;
@@ -95,7 +99,8 @@ Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const P
   const CommandFeatures& x = a.counted[run];
   const CommandFeatures& y = b.counted[run];
   if (!measured_.counted[run].known || !x.known || !y.known) return rows;
-  rows.head<3>() << (x.left_gain - y.left_gain) / scatter_.gain, (x.right_gain - y.right_gain) / scatter_.gain,
+  const double gain_sd = std::hypot(scatter_.gain, measured_.counted[run].gain_sd);
+  rows.head<3>() << (x.left_gain - y.left_gain) / gain_sd, (x.right_gain - y.right_gain) / gain_sd,
       (x.lag_s - y.lag_s) / scatter_.lag_s;
   return rows;
 }

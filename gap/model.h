@@ -7,11 +7,11 @@
 #include "gap/command_features.h"
 #include "gap/evidence.h"
 #include "gap/family.h"
-#include "gap/habits.h"
 #include "gap/nominal_replay.h"
 #include "gap/nuisances.h"
 #include "gap/simulator.h"
 #include "gap/track_filter.h"
+#include "recording/habits.h"
 #include "recording/recording.h"
 #include "recording/stretches.h"
 
@@ -98,7 +98,7 @@ class Model {
 
   /// Sum of squares, in standard deviations, by which a prediction misses counts against commands.
   double counts_misfit(const Predicted& predicted) const;
-  double count_rows() const;  ///< numbers that it is made of
+  double count_rows() const;
 
   /// Grams of residual, nuisances and the given columns; further columns of each run alone are integrated out.
   std::vector<RunGram> grams(const std::vector<Eigen::VectorXd>& residual, const std::vector<Eigen::MatrixXd>& columns,
@@ -133,6 +133,7 @@ class Model {
   const Recording& recording_;
   Simulator simulator_;
   Scatter scatter_;
+  double step_rad_ = 0;  // between two counts, as wide as they really are
   std::vector<std::vector<Stretch>> stretches_;
   Predicted measured_;         // what was recorded, without tracks
   Predicted without_effects_;

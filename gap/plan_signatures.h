@@ -32,7 +32,7 @@ struct Signature {
 struct Signatures {
   std::vector<Signature> all;
   std::vector<Eigen::MatrixXd> columns;  ///< per run
-  Eigen::MatrixXd habits;  ///< what any set of runs shows of how it is driven and read, once (gap/habits.h)
+  Eigen::MatrixXd habits;  ///< what any set of runs shows of how it is driven and read, once (recording/habits.h)
 
   /// An effect that bends the simulator, or cannot be negative, is simulated at the wanted severity and its secant
   /// taken; any other is simulated at its family's step. `counted`: runs that a severity is measured on. `severity` 0:

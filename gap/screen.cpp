@@ -112,7 +112,7 @@ void Screen::try_frictions(const Fit& fit, Candidate& c) const {
   p << fit.p, 0;
   c.gain = -1e9;
   if (model_.slips_at() == 0) return;
-  for (const double less : {-0.02, -0.01, 0.0, 0.01, 0.02, 0.035, 0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.6}) {
+  for (const double less : {-0.02, -0.01, 0.0, 0.01, 0.02, 0.035, 0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.6, 0.9, 1.3, 1.8, 2.5}) {
     const double friction = model_.slips_at() * std::exp(-less);
     p[fit.p.size()] = friction;
     try {

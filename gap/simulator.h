@@ -7,6 +7,7 @@
 
 #include "core/pose2.h"
 #include "effects/catalogue.h"
+#include "recording/habits.h"
 
 namespace umbsim::gap {
 
@@ -21,7 +22,7 @@ using ReplayCommands =
 struct Simulator {
   ReplayTicks ticks;
   ReplayCommands commands;
-  std::function<std::array<double, 5>(const std::vector<Effect>&)> habits;  ///< as gap/habits.h, under effects
+  std::function<Habits(const std::vector<Effect>&)> habits;  ///< as recording/habits.h, under effects
 };
 
 }  // namespace umbsim::gap

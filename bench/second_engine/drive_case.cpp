@@ -9,6 +9,7 @@
 #include "bench/second_engine/robot.h"
 #include "core/error.h"
 #include "core/text_file.h"
+#include "experiment/demanded.h"
 #include "experiment/planned_runs.h"
 #include "gap/trial/trial_folder.h"
 #include "odometry/dead_reckoning.h"
@@ -39,19 +40,6 @@ Rig rig_of(const TrialDrive& drive, const RobotModel& nominal, const RecordedRun
   rig = apply_effects(drive.effects, std::move(rig));
   if (!run.payload_kg) return rig;
   return apply_effects({payload_on(nominal, *run.payload_kg)}, std::move(rig));
-}
-
-Course course_of(const RecordedPath& path, const RecordedRun& run, const Demand& demand) {
-  Course c;
-  c.side_m = path.side_m;
-  c.turn = run.turn.value_or(path.turn);
-  c.turn_radius_m = run.turn_radius_m.value_or(path.turn_radius_m.value_or(c.turn_radius_m));
-  c.linear_speed_mps = run.linear_speed_mps.value_or(*path.linear_speed_mps);
-  c.angular_speed_radps = *path.angular_speed_radps * demand.turn_speed_factor;
-  c.linear_acceleration_mps2 = *path.linear_acceleration_mps2 * demand.acceleration_factor;
-  c.angular_acceleration_radps2 =
-      *path.angular_acceleration_radps2 * demand.acceleration_factor * demand.turn_speed_factor;
-  return c;
 }
 
 // What the robot knows of itself.
@@ -121,10 +109,10 @@ void drive_run(const EngineOptions& options, const TrialDrive& drive, const Robo
   const RecordedRobot& believed = drive.planned.robot;
   const Direction direction = run.direction == "cw" ? Direction::cw : Direction::ccw;
   const double period_s = 1 / drive.planned.encoder_rate_hz;
-  const double longest_s = kLongest * Plan(course_of(drive.planned.path, run, {}), direction).duration_s();
+  const double longest_s = kLongest * Plan(demanded_course(drive.planned.path, run, {}), direction).duration_s();
   Robot robot(rig, options, run.start_heading_rad.value_or(0), drive.heading_walk_rad_per_sqrt_m,
               RandomStream(drive.seed, "second engine heading", std::uint64_t(number)));
-  Driver driver(course_of(drive.planned.path, run, rig.demand), direction,
+  Driver driver(demanded_course(drive.planned.path, run, rig.demand), direction,
                 {believed.wheel_radius_m, believed.wheel_radius_m, believed.wheelbase_m}, period_s);
   OwnOdometry odometry(rig, believed);
   Recorder recorder(drive, rig, run);

@@ -171,6 +171,31 @@ void expect_refused(const std::string& yaml, const std::vector<std::string>& par
   }
 }
 
+Effect with(const std::string& name, const std::string& parameter, double value) {
+  Effect e = neutral_effect(find_effect(name));
+  for (std::size_t i = 0; i < e.info->parameters.size(); ++i) {
+    if (e.info->parameters[i].name == parameter) e.values.numbers[i] = value;
+  }
+  return e;
+}
+
+TEST(Effects, FoundOnTopOfBelieved) {
+  const std::vector<Effect> both =
+      combined({with("wheelbase", "relative", 0.02), with("fast_turning", "factor", 2),
+                with("slippery_floor", "friction", 0.5), with("bump", "x_m", 1)},
+               {with("wheelbase", "relative", 0.01), with("fast_turning", "factor", 1.5),
+                with("slippery_floor", "friction", 0.1), with("bump", "x_m", 2), with("wear", "left_relative_per_run", 1e-4)});
+  ASSERT_EQ(both.size(), 6u);
+  EXPECT_NEAR(both[0].values.numbers[0], 0.03, 1e-15) << "departures from neutral are added";
+  EXPECT_NEAR(both[1].values.numbers[0], 2.5, 1e-15);
+  EXPECT_EQ(both[2].values.numbers[0], 0.1) << "0 stands for the scenario's: the new one goes";
+  EXPECT_EQ(both[3].values.numbers[1], 1);
+  EXPECT_EQ(both[4].values.numbers[1], 2) << "cables lie beside each other";
+  EXPECT_EQ(both[5].info->name, "wear");
+  const std::vector<Effect> far = combined({with("wheelbase", "relative", 0.4)}, {with("wheelbase", "relative", 0.4)});
+  EXPECT_EQ(far[0].values.numbers[0], far[0].info->parameters[0].bounds.max);
+}
+
 TEST(Effects, BadOnesAreRefusedByName) {
   expect_refused("wheel_base: {relative: 0.1}", {"effects.yaml:1", "wheel_base", "did you mean 'wheelbase'"});
   expect_refused("wheelbase: {relative: 0.1}\nwheelbase: {relative: 0.2}",

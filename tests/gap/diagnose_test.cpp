@@ -126,6 +126,34 @@ TEST(Diagnose, WhatOnlyCommandsShowBesideALargeEffect) {
   EXPECT_EQ(d.causes.front().name, "fast_turning+wheel_eccentricity");
 }
 
+// The twin of a diagnosis is a scenario that leaves nothing to be found.
+TEST(Diagnose, NothingIsLeftBesideWhatTheScenarioHas) {
+  const Effect wheelbase = effect("wheelbase", {{"relative", 0.008}});
+  const Recording recording = campaign({wheelbase}, 12);
+  Scenario scenario = scenario_of(recording, ".");
+  scenario.effects = {wheelbase};
+  const Replay replay(scenario, recording);
+  const Model model(recording, testing::simulator(replay), Scatter{});
+  const Diagnosis d = diagnose(model, {}, Thresholds{}, [](const std::string&) {});
+  std::cout << text(d) << "\n";
+  EXPECT_FALSE(d.detected);
+  EXPECT_EQ(d.causes.front().name, "none");
+}
+
+// A payload on one side shows where wheels slip that lose its weight.
+TEST(Diagnose, APayloadThatNobodyToldOfOnSoftTyres) {
+  const Effect tyres = effect("tyre_compliance", {{"metres_per_newton", 2e-6}});
+  const Effect load = effect("load_shift", {{"payload_kg", 12}, {"left_m", 0.12}, {"height_m", 0.1}});
+  const Recording recording = campaign({tyres, load}, 22);
+  Scenario scenario = scenario_of(recording, ".");
+  scenario.effects = {tyres};
+  const Replay replay(scenario, recording);
+  const Model model(recording, testing::simulator(replay), Scatter{});
+  const Diagnosis d = diagnose(model, {}, Thresholds{}, [](const std::string&) {});
+  std::cout << text(d) << "\n";
+  EXPECT_EQ(d.causes.front().name, "load_shift");
+}
+
 TEST(Diagnose, ASmallEffectBesideALargeOne) {
   const Patient p(campaign(
       {effect("wheel_eccentricity", {{"right_m", 0.002}}), effect("wheel_radius_difference", {{"relative", 0.0012}})},

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "gap/command_features.h"
 #include "tests/gap/recordings.h"
 
 namespace umbsim {
@@ -138,6 +139,60 @@ TEST(ReplayOfCoarseTicks, AKnownResolutionIsUndone) {
                            1000 * without);
   EXPECT_LT(with, 1.2e-3);
   EXPECT_GT(without, 4 * with);
+}
+
+// A controller that holds the robot where a coarse count changes makes it tremble by a step: no rotation.
+TEST(ReplayOfCommands, AStepToAndFroIsNoGain) {
+  for (const double ticks : {70.0, 150.0, 500.0}) {
+    const Recording recording = coarse(ticks, 2000);
+    for (const RecordedRun& run : recording.runs) {
+      const gap::CommandFeatures f =
+          gap::command_features(run, gap::counted_rad(run, recording.robot), 2 * M_PI / ticks);
+      std::cout << fmt::format("{} ticks, {}: gains {:+.5f} {:+.5f}, uncertain by {:.5f}\n", ticks, run.id, f.left_gain,
+                               f.right_gain, f.gain_sd);
+      EXPECT_LT(std::abs(f.left_gain), 3 * f.gain_sd);
+      EXPECT_LT(std::abs(f.right_gain), 3 * f.gain_sd);
+    }
+  }
+}
+
+// Ramps of two samples, and turns that are over before they are fast, show less than was asked for.
+TEST(ReplayOfCommands, HabitsShowAsMuchOfADemandAsTheRecording) {
+  for (const auto& [name, factor] : {std::pair<const char*, double>{"over_acceleration", 5}, {"over_acceleration", 25},
+                                     {"fast_turning", 2}, {"fast_turning", 9}}) {
+    Scenario s = squares(2, 2);
+    s.effects = {effect(name, {{"factor", factor}})};
+    const Recording recording = run_experiment(s, 0).recording;
+    std::vector<std::vector<Stretch>> all;
+    for (const RecordedRun& run : recording.runs) all.push_back(stretches(run, recording.robot));
+    const Habits measured = measured_habits(recording, all, 1);
+    s.effects.clear();
+    const Recording plain = run_experiment(s, 0).recording;
+    const Habits foretold = Replay(scenario_of(plain, "."), plain).habits({effect(name, {{"factor", factor}})});
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::cout << fmt::format("{} x {}: habit {} {:.3f}, foretold {:.3f}, asked {:.3f}\n", name, factor, i, measured[i],
+                               foretold[i], std::log(factor));
+      EXPECT_NEAR(foretold[i], measured[i], 0.05);
+    }
+  }
+}
+
+TEST(Replay, EffectsOfTheScenarioActInEveryReplay) {
+  const Effect wheelbase = effect("wheelbase", {{"relative", 0.01}});
+  const Effect more = effect("wheelbase", {{"relative", 0.005}});
+  const Recording recording = run_experiment(squares(1, 1), 0).recording;
+  const Replay plain(scenario_of(recording, "."), recording);
+  Scenario scenario = scenario_of(recording, ".");
+  scenario.effects = {wheelbase};
+  const Replay believed(scenario, recording);
+  const auto apart_m = [](const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
+    double worst = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) worst = std::max(worst, distance_m(a[k], b[k]));
+    return worst;
+  };
+  EXPECT_EQ(apart_m(believed.poses(0, {}), plain.poses(0, {wheelbase})), 0);
+  EXPECT_LT(apart_m(believed.poses(0, {more}), plain.poses(0, {effect("wheelbase", {{"relative", 0.015}})})), 1e-12);
+  EXPECT_GT(apart_m(believed.poses(0, {}), plain.poses(0, {})), 0.01);
 }
 
 TEST(ReplayOfCommands, CoarseEncodersCountInSteps) {

@@ -5,17 +5,16 @@
 #include "recording/recording.h"
 #include "recording/stretches.h"
 
-namespace umbsim::gap {
+namespace umbsim {
 
 /// How the robot was driven and read, against what the recording declares. Natural logarithms of ratios, 0 where it is
 /// as declared: linear acceleration, angular acceleration, speed of turns in place, sampling interval over the reading
 /// period, counts per revolution really resolved over those declared.
 using Habits = std::array<double, 5>;
 
-/// Standard deviations with which they are measured.
-inline constexpr Habits kHabitsSd{0.1, 0.1, 0.05, 0.05, 0.05};
-
 /// From commands where there are some (else from counts). What the recording does not declare is 0.
-Habits measured_habits(const Recording& recording, const std::vector<std::vector<Stretch>>& stretches);
+/// `count_step`: width of the encoders' steps, in counts.
+Habits measured_habits(const Recording& recording, const std::vector<std::vector<Stretch>>& stretches,
+                       double count_step);
 
-}  // namespace umbsim::gap
+}  // namespace umbsim

@@ -1,12 +1,10 @@
-#include "gap/habits.h"
+#include "recording/habits.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "recording/coarse_counts.h"
-
-namespace umbsim::gap {
+namespace umbsim {
 namespace {
 
 double median(std::vector<double> x) {
@@ -58,8 +56,8 @@ Ramp ramp(const RecordedRun& run, const Stretch& s, const RecordedRobot& robot) 
   return r;
 }
 
-// Interval at which moving counters change, over the reading period.
-double sampling_ratio(const Recording& recording, const std::vector<std::vector<Stretch>>& stretches) {
+// Interval at which moving counters change, over the reading period; nothing where their steps are too wide to say.
+double sampling_ratio(const Recording& recording, const std::vector<std::vector<Stretch>>& stretches, double width) {
   double moving = 0;
   double changes = 0;
   for (std::size_t r = 0; r < recording.runs.size(); ++r) {
@@ -70,7 +68,7 @@ double sampling_ratio(const Recording& recording, const std::vector<std::vector<
       const std::size_t a = s.first + (s.last - s.first) / 4;
       const std::size_t b = s.last - (s.last - s.first) / 4;
       const double per_period = std::abs(double(e[b].left_ticks - e[a].left_ticks)) / double(b - a);
-      if (per_period < 4) continue;
+      if (per_period < 4 * width) continue;
       double still = 0;
       for (std::size_t i = a + 1; i <= b; ++i) {
         const double step = std::abs(double(e[i].left_ticks - e[i - 1].left_ticks));
@@ -91,7 +89,8 @@ double sampling_ratio(const Recording& recording, const std::vector<std::vector<
 
 }  // namespace
 
-Habits measured_habits(const Recording& recording, const std::vector<std::vector<Stretch>>& stretches) {
+Habits measured_habits(const Recording& recording, const std::vector<std::vector<Stretch>>& stretches,
+                       double count_step) {
   Habits habits{};
   const RecordedPath& p = recording.path;
   std::vector<double> linear;
@@ -120,9 +119,9 @@ Habits measured_habits(const Recording& recording, const std::vector<std::vector
     habits[1] = ratio(angular, p.angular_acceleration_radps2);
     habits[2] = ratio(turning, p.angular_speed_radps);
   }
-  habits[3] = std::log(sampling_ratio(recording, stretches));
+  habits[3] = std::log(sampling_ratio(recording, stretches, count_step));
   if (habits[3] < 0.1) habits[3] = 0;
-  habits[4] = -std::log(count_step(recording));
+  habits[4] = -std::log(count_step);
   // What is hardly measured is as declared: ramps of one or two samples, a first or last step.
   for (double& h : habits) {
     if (std::abs(h) < 0.02) h = 0;
@@ -130,4 +129,4 @@ Habits measured_habits(const Recording& recording, const std::vector<std::vector
   return habits;
 }
 
-}  // namespace umbsim::gap
+}  // namespace umbsim
