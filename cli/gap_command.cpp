@@ -44,13 +44,16 @@ std::string folder_name(const std::string& path) {
 
 // The scenario with the diagnosed effects added; each effect once.
 std::string twin_yaml(Scenario scenario, const gap::Diagnosis& d) {
-  if (!d.causes.empty() && d.causes.front().name != "none" && d.causes.front().name != "unknown" && !d.twin_is_nominal) {
+  if (!d.causes.empty() && d.causes.front().name != "none" && d.causes.front().name != "unknown" &&
+      !d.twin_is_nominal) {
     std::vector<Effect> once;
     for (const Effect& e : combined(scenario.effects, gap::twin_effects(d.causes.front().fit))) {
       const auto there =
           std::find_if(once.begin(), once.end(), [&](const Effect& other) { return other.info == e.info; });
-      if (there == once.end()) once.push_back(e);
-      else *there = e;
+      if (there == once.end())
+        once.push_back(e);
+      else
+        *there = e;
     }
     scenario.effects = std::move(once);
   }
@@ -183,7 +186,7 @@ void add_gap_command(CLI::App& app) {
       "Where the simulator and the recorded robot part, which effect explains it, how much adding it helps");
   command->add_option("recording", a->recording, "Folder of the recording (real or simulated)")->required();
   command->add_option("--scenario", a->scenario,
-                      "Scenario that was thought to describe it; default: the recording's robot");
+                      "Scenario that was thought to describe it, with its effects; default: the recording's robot");
   command->add_option("--exclude", a->excluded, "Take an effect out of the catalogue (repeatable)")
       ->allow_extra_args(false);
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<recording>-diagnosis");

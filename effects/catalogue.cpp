@@ -58,7 +58,8 @@ std::vector<Effect> read_effects(const YamlValue& value) {
 
 std::vector<Effect> combined(std::vector<Effect> believed, const std::vector<Effect>& more) {
   for (const Effect& e : more) {
-    const auto there = std::find_if(believed.begin(), believed.end(), [&](const Effect& b) { return b.info == e.info; });
+    const auto there =
+        std::find_if(believed.begin(), believed.end(), [&](const Effect& b) { return b.info == e.info; });
     if (there == believed.end() || e.info->one_run || has_place(*e.info)) {
       believed.push_back(e);
     } else if (replaces(*e.info)) {

@@ -68,7 +68,7 @@ Effect neutral_effect(const EffectInfo& info);
 std::vector<Effect> read_effects(const YamlValue& value);
 
 /// `believed` with `more` on top. An effect that both have has its parameters' departures from neutral added, within
-/// their bounds; where 0 stands for «the scenario's» the new value goes; effects of a place or of one run stand beside
+/// their bounds; where 0 stands for the scenario's own the new value goes; effects of a place or of one run stand beside
 /// each other.
 std::vector<Effect> combined(std::vector<Effect> believed, const std::vector<Effect>& more);
 

@@ -68,8 +68,8 @@ Recording demanded(const Recording& recording, const Demand& demand) {
     asked.turn = run.turn;
     asked.has_commands = true;
     const Direction direction = run.direction == "cw" ? Direction::cw : Direction::ccw;
-    asked.encoders = driven(demanded_course(recording.path, run, demand), direction, recording.robot,
-                            1 / recording.encoder_rate_hz);
+    asked.encoders =
+        driven(demanded_course(recording.path, run, demand), direction, recording.robot, 1 / recording.encoder_rate_hz);
     result.runs.push_back(std::move(asked));
   }
   return result;

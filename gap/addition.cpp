@@ -9,7 +9,7 @@ namespace {
 // Variance by which an effect's signature may be off, another engine's robot for one: of the whole signature, for
 // nuisances like a clock's offset that take up most of it do not take up its error.
 constexpr double kSignatureError = 3e-4;
-constexpr double kMost = 0.5;  // of the misfit
+constexpr double kMost = 0.5;   // of the misfit
 constexpr double kPlain = 2.5;  // times what counts must show
 
 // Toed wheels scrub, and how tyres give way to it is fitted with two numbers only: of what they explain, this share may

@@ -17,9 +17,9 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr double kAsGood = 1.001;      // held-out error of a combination, over that of something simpler
-constexpr double kWorthKnowing = 0.05; // what effects explain, over the misfit that they leave
-constexpr double kOverconfidence = 2;  // evidence is divided by this before it becomes probability
+constexpr double kAsGood = 1.001;       // held-out error of a combination, over that of something simpler
+constexpr double kWorthKnowing = 0.05;  // what effects explain, over the misfit that they leave
+constexpr double kOverconfidence = 2;   // evidence is divided by this before it becomes probability
 
 double tail(double chi_squared, double degrees_of_freedom) {
   if (!(chi_squared > 0)) return 1;

@@ -7,8 +7,8 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr double kLeastKick = 10; // log evidence below which a place or a moment would not pay
-constexpr double kTryCost = 3;  // log of how many frictions are tried
+constexpr double kLeastKick = 10;  // log evidence below which a place or a moment would not pay
+constexpr double kTryCost = 3;     // log of how many frictions are tried
 
 Eigen::VectorXd start_of(const Family& family) {
   Eigen::VectorXd p(Eigen::Index(family.parameters.size()));
@@ -112,7 +112,8 @@ void Screen::try_frictions(const Fit& fit, Candidate& c) const {
   p << fit.p, 0;
   c.gain = -1e9;
   if (model_.slips_at() == 0) return;
-  for (const double less : {-0.02, -0.01, 0.0, 0.01, 0.02, 0.035, 0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.6, 0.9, 1.3, 1.8, 2.5}) {
+  for (const double less :
+       {-0.02, -0.01, 0.0, 0.01, 0.02, 0.035, 0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.6, 0.9, 1.3, 1.8, 2.5}) {
     const double friction = model_.slips_at() * std::exp(-less);
     p[fit.p.size()] = friction;
     try {

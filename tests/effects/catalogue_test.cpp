@@ -184,7 +184,8 @@ TEST(Effects, FoundOnTopOfBelieved) {
       combined({with("wheelbase", "relative", 0.02), with("fast_turning", "factor", 2),
                 with("slippery_floor", "friction", 0.5), with("bump", "x_m", 1)},
                {with("wheelbase", "relative", 0.01), with("fast_turning", "factor", 1.5),
-                with("slippery_floor", "friction", 0.1), with("bump", "x_m", 2), with("wear", "left_relative_per_run", 1e-4)});
+                with("slippery_floor", "friction", 0.1), with("bump", "x_m", 2),
+                with("wear", "left_relative_per_run", 1e-4)});
   ASSERT_EQ(both.size(), 6u);
   EXPECT_NEAR(both[0].values.numbers[0], 0.03, 1e-15) << "departures from neutral are added";
   EXPECT_NEAR(both[1].values.numbers[0], 2.5, 1e-15);

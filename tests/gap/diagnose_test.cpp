@@ -129,12 +129,7 @@ TEST(Diagnose, WhatOnlyCommandsShowBesideALargeEffect) {
 // The twin of a diagnosis is a scenario that leaves nothing to be found.
 TEST(Diagnose, NothingIsLeftBesideWhatTheScenarioHas) {
   const Effect wheelbase = effect("wheelbase", {{"relative", 0.008}});
-  const Recording recording = campaign({wheelbase}, 12);
-  Scenario scenario = scenario_of(recording, ".");
-  scenario.effects = {wheelbase};
-  const Replay replay(scenario, recording);
-  const Model model(recording, testing::simulator(replay), Scatter{});
-  const Diagnosis d = diagnose(model, {}, Thresholds{}, [](const std::string&) {});
+  const Diagnosis d = Patient(campaign({wheelbase}, 12), {wheelbase}).diagnosed();
   std::cout << text(d) << "\n";
   EXPECT_FALSE(d.detected);
   EXPECT_EQ(d.causes.front().name, "none");
@@ -144,12 +139,7 @@ TEST(Diagnose, NothingIsLeftBesideWhatTheScenarioHas) {
 TEST(Diagnose, APayloadThatNobodyToldOfOnSoftTyres) {
   const Effect tyres = effect("tyre_compliance", {{"metres_per_newton", 2e-6}});
   const Effect load = effect("load_shift", {{"payload_kg", 12}, {"left_m", 0.12}, {"height_m", 0.1}});
-  const Recording recording = campaign({tyres, load}, 22);
-  Scenario scenario = scenario_of(recording, ".");
-  scenario.effects = {tyres};
-  const Replay replay(scenario, recording);
-  const Model model(recording, testing::simulator(replay), Scatter{});
-  const Diagnosis d = diagnose(model, {}, Thresholds{}, [](const std::string&) {});
+  const Diagnosis d = Patient(campaign({tyres, load}, 22), {tyres}).diagnosed();
   std::cout << text(d) << "\n";
   EXPECT_EQ(d.causes.front().name, "load_shift");
 }

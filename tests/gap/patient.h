@@ -3,6 +3,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "gap/diagnose.h"
 #include "tests/gap/recordings.h"
@@ -11,12 +12,17 @@ namespace umbsim::testing {
 
 /// A recording with what is needed to diagnose it, kept together: they refer to each other.
 struct Patient {
-  explicit Patient(Recording r)
+  explicit Patient(Recording r, const std::vector<Effect>& believed = {})
       : recording(std::move(r)),
-        replay(scenario_of(recording, "."), recording),
+        replay(with_effects(scenario_of(recording, "."), believed), recording),
         model(recording, simulator(replay), gap::Scatter{}) {}
   gap::Diagnosis diagnosed(const std::set<std::string>& excluded = {}) const {
     return gap::diagnose(model, excluded, gap::Thresholds{}, [](const std::string&) {});
+  }
+
+  static Scenario with_effects(Scenario s, const std::vector<Effect>& effects) {
+    s.effects = effects;
+    return s;
   }
 
   Recording recording;

@@ -170,8 +170,8 @@ TEST(ReplayOfCommands, HabitsShowAsMuchOfADemandAsTheRecording) {
     const Recording plain = run_experiment(s, 0).recording;
     const Habits foretold = Replay(scenario_of(plain, "."), plain).habits({effect(name, {{"factor", factor}})});
     for (std::size_t i = 0; i < 3; ++i) {
-      std::cout << fmt::format("{} x {}: habit {} {:.3f}, foretold {:.3f}, asked {:.3f}\n", name, factor, i, measured[i],
-                               foretold[i], std::log(factor));
+      std::cout << fmt::format("{} x {}: habit {} {:.3f}, foretold {:.3f}, asked {:.3f}\n", name, factor, i,
+                               measured[i], foretold[i], std::log(factor));
       EXPECT_NEAR(foretold[i], measured[i], 0.05);
     }
   }
