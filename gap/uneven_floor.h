@@ -12,7 +12,7 @@ struct UnevenFloorFound {
   double sigmas = 0;  ///< of the agreement between passes in different directions over its standard error
   double rms_m = 0;   ///< of the floor's height
   double wavelength_m = 0;
-  double log_sd[2] = {0, 0};  ///< of both, by leaving out runs in turn
+  double log_sd[2] = {0, 0};  ///< of both, by leaving out runs in turn; the height is unsure by more
 };
 
 /// Looks at the shifts along the legs where runs pass the same place in different directions. Nothing where no run
