@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kAsGood = 1.001;       // held-out error of a combination, over that of something simpler
 constexpr double kWorthKnowing = 0.05;  // what effects explain, over the misfit that they leave
+constexpr double kPlainlyShown = 100;   // log evidence of counts and commands
 constexpr double kOverconfidence = 2;   // evidence is divided by this before it becomes probability
 
 double tail(double chi_squared, double degrees_of_freedom) {
@@ -108,6 +109,16 @@ std::vector<std::string> tied(const std::vector<Cause>& causes, const Thresholds
     if (causes.front().score - c.score <= t.tie) names.push_back(c.name);
   }
   return names;
+}
+
+// What counts and commands plainly show is there, whatever else there may be.
+void add_what_counts_show(const Model& model, const Fit& none, Diagnosis& d) {
+  const double before = model.counts_misfit(none.predicted);
+  for (const Cause& c : d.causes) {
+    if (c.fit.families.size() != 1 || !shows_in_counts(find_effect(c.fit.families.front().effect))) continue;
+    if (before - model.counts_misfit(c.fit.predicted) < 2 * kPlainlyShown) continue;
+    if (std::find(d.set.begin(), d.set.end(), c.name) == d.set.end()) d.set.push_back(c.name);
+  }
 }
 
 void find_place(const Model& model, const Fit& fit, Diagnosis& d) {
@@ -247,6 +258,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   const bool worth_knowing = !best.families.empty() && explained > std::max(left_generic, kWorthKnowing * lack);
   const bool there = std::find(d.set.begin(), d.set.end(), best.name()) != d.set.end();
   if (d.causes.front().name == "unknown" && worth_knowing && !there) d.set.push_back(best.name());
+  if (d.causes.front().name == "unknown") add_what_counts_show(model, none, d);
   d.segments = segment_scores(model, none);
   if (d.segments.size() > 12) d.segments.resize(12);
   if (d.detected && !best.families.empty()) {

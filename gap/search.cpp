@@ -22,6 +22,7 @@ constexpr int kRounds = 7;
 constexpr int kFewerRounds = 4;  // what is there already has been fitted
 constexpr std::size_t kSwapsFitted = 2;
 constexpr double kRivals = 0.8;    // share of an effect's gain that the screen must see in another in its place
+constexpr double kShown = 50;      // log evidence of a demand in commands
 constexpr double kFarBehind = 20;  // log evidence
 constexpr double kHint = 0.02;     // of what explains all, below which no place or moment is looked at
 constexpr int kHalvings = 4;
@@ -69,6 +70,11 @@ Eigen::VectorXd searched_start(const Model& model, const Fit& base, Screen::Cand
     max[i] = c.family.parameters[std::size_t(i)].max;
   }
   return pattern_search(density_on(model, base, c.family), c.start, c.reach, min, max, kHalvings, kMostTries);
+}
+
+// The demand itself.
+bool asked_for(const Family& family) {
+  return family.effect == "over_acceleration" || family.effect == "fast_turning";
 }
 
 // Nothing is left but noise, as well as it is known.
@@ -135,7 +141,9 @@ class Search {
       // Where the simulator bends, the screen is only a hint: such families are tried a little longer.
       const double needed = singles[i].family.from_zero ? 2 : 1;
       if (singles[i].gain < needed) continue;
-      if (i >= kSinglesFitted && singles[i].gain < best_gain - 15) continue;
+      // What commands show is tried however much more the tracks say of something else.
+      const bool shown = asked_for(singles[i].family) && singles[i].gain > kShown;
+      if (i >= kSinglesFitted && singles[i].gain < best_gain - 15 && !shown) continue;
       if (!singles[i].starts.empty() && idle(singles[i])) continue;
       if (auto fit = tried(none_, singles[i])) fits_.push_back(std::move(*fit));
     }

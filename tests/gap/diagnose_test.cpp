@@ -144,6 +144,16 @@ TEST(Diagnose, APayloadThatNobodyToldOfOnSoftTyres) {
   EXPECT_EQ(d.causes.front().name, "load_shift");
 }
 
+// The tracks may be beyond the catalogue: what commands show is true all the same.
+TEST(Diagnose, WhatCommandsShowStandsBesideUnknown) {
+  const Patient p(
+      campaign({effect("wheel_eccentricity", {{"right_m", 0.002}}), effect("fast_turning", {{"factor", 3}})}, 16));
+  const Diagnosis d = p.diagnosed({"wheel_eccentricity"});
+  std::cout << text(d) << "\n";
+  EXPECT_EQ(d.causes.front().name, "unknown");
+  EXPECT_NE(std::find(d.set.begin(), d.set.end(), "fast_turning"), d.set.end());
+}
+
 TEST(Diagnose, ASmallEffectBesideALargeOne) {
   const Patient p(campaign(
       {effect("wheel_eccentricity", {{"right_m", 0.002}}), effect("wheel_radius_difference", {{"relative", 0.0012}})},
