@@ -41,17 +41,23 @@ std::vector<EncoderSample> driven(const Course& course, Direction direction, con
 
 }  // namespace
 
+Course demanded(Course course, const Demand& demand) {
+  course.linear_acceleration_mps2 *= demand.acceleration_factor;
+  course.angular_acceleration_radps2 *= demand.acceleration_factor * demand.turn_speed_factor;
+  course.angular_speed_radps *= demand.turn_speed_factor;
+  return course;
+}
+
 Course demanded_course(const RecordedPath& path, const RecordedRun& run, const Demand& demand) {
   Course c;
   c.side_m = path.side_m;
   c.turn = run.turn.value_or(path.turn);
   c.turn_radius_m = run.turn_radius_m.value_or(path.turn_radius_m.value_or(c.turn_radius_m));
   c.linear_speed_mps = run.linear_speed_mps.value_or(*path.linear_speed_mps);
-  c.angular_speed_radps = *path.angular_speed_radps * demand.turn_speed_factor;
-  c.linear_acceleration_mps2 = *path.linear_acceleration_mps2 * demand.acceleration_factor;
-  c.angular_acceleration_radps2 =
-      *path.angular_acceleration_radps2 * demand.acceleration_factor * demand.turn_speed_factor;
-  return c;
+  c.angular_speed_radps = *path.angular_speed_radps;
+  c.linear_acceleration_mps2 = *path.linear_acceleration_mps2;
+  c.angular_acceleration_radps2 = *path.angular_acceleration_radps2;
+  return demanded(c, demand);
 }
 
 Recording demanded(const Recording& recording, const Demand& demand) {

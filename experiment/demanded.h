@@ -6,6 +6,9 @@
 
 namespace umbsim {
 
+/// A course with its accelerations and turns as `demand` asks for them.
+Course demanded(Course course, const Demand& demand);
+
 /// The course of one recorded run as `demand` asks for it. `path` must declare a square and all its speeds.
 Course demanded_course(const RecordedPath& path, const RecordedRun& run, const Demand& demand);
 

@@ -5,6 +5,7 @@
 
 #include "core/random.h"
 #include "experiment/cable_layer.h"
+#include "experiment/demanded.h"
 #include "experiment/rolling_noise.h"
 
 namespace umbsim {
@@ -61,13 +62,6 @@ class Recorder {
   RandomStream random_;
   int stride_ = 1;
 };
-
-Course demanded(Course course, const Demand& demand) {
-  course.linear_acceleration_mps2 *= demand.acceleration_factor;
-  course.angular_acceleration_radps2 *= demand.acceleration_factor * demand.turn_speed_factor;
-  course.angular_speed_radps *= demand.turn_speed_factor;
-  return course;
-}
 
 // Pushes during a leg as pushes during the run. Legs that the course does not have are never pushed.
 std::vector<Push> timed(const std::vector<LegPush>& pushes, const Plan& plan) {

@@ -46,17 +46,17 @@ double seen_between(const Model& model, const Fit& base, const Fit& fit) {
 
 Needed addition_needed(const Model& model, const Fit& base, const Fit& none, const Thresholds& t) {
   const double gained = std::max(0.0, base.log_evidence - none.log_evidence);
-  const double excess = std::max(0.0, base.misfit - (1 + t.noise_error) * model.rows());
+  const double left = excess(model, base);
   const double counts_left = model.counts_misfit(base.predicted);
   const double counts_gained = std::max(0.0, model.counts_misfit(none.predicted) - counts_left) / 2;
   // Where much is left the noise model is too narrow for what it is asked: evidence in units of what is left.
   const double spread = std::max(1.0, base.misfit / model.rows() - t.noise_error);
   const double off = kSignatureError * seen_between(model, none, base) / 2;
   const double own = spread * (t.addition + std::max(share_that_may_err(base, t) * gained, off));
-  const double for_misfit = t.misfit_share * excess / 2;
+  const double for_misfit = t.misfit_share * left / 2;
   Needed needed;
   needed.everywhere = std::max(own, for_misfit);
-  needed.local = std::max(own, t.local_misfit_share * excess / 2);
+  needed.local = std::max(own, t.local_misfit_share * left / 2);
   // Counts and habits are measured as they are: no noise of the tracks, and no misfit of theirs, speaks against them.
   needed.counts = std::max(t.addition + t.counts_share * counts_gained, t.counts_misfit_share * counts_left / 2);
   // The screen is linear: beside something large an effect may bring ten times what it sees.
