@@ -1,6 +1,9 @@
 #include "gap/addition.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace umbsim::gap {
 
@@ -10,11 +13,40 @@ namespace {
 // nuisances like a clock's offset that take up most of it do not take up its error.
 constexpr double kSignatureError = 3e-4;
 constexpr double kMost = 0.5;   // of the misfit
+constexpr double kMostOfReading = 16;  // squared standard deviations
 constexpr double kPlain = 2.5;  // times what counts must show
 
 // Toed wheels scrub, and how tyres give way to it is fitted with two numbers only: of what they explain, this share may
 // be another tyre's.
 constexpr double kScrubShare = 0.03;
+
+// What an error of one effect's model looks like: a further effect of that kind must bring this share of what the fit
+// brought.
+struct Lookalikes {
+  std::set<std::string> of;
+  std::set<std::string> effects;
+  double share;
+};
+
+const std::vector<Lookalikes>& lookalikes() {
+  static const std::vector<Lookalikes> all{
+      // Coarse or rare counts are undone as well as can be. What is left are jumps of the shafts' speed, which look
+      // like late counts or like wheels that slip under them.
+      {{"encoder_resolution", "encoder_sampling"},
+       {"slippery_floor", "tyre_creep", "encoder_latency", "backlash"},
+       0.1},
+      // Toed wheels scrub: how tyres give way to it, and the yaw that it takes, differ between tyres.
+      {{"wheel_misalignment"}, {"slippery_floor", "tyre_creep", "wheel_radius_difference", "wear"}, 0.25},
+      // How far a wheel slides once it has let go differs as well.
+      {{"slippery_floor"}, {"tyre_creep", "backlash", "encoder_latency", "caster_swivel", "caster_drag"}, 0.25},
+  };
+  return all;
+}
+
+std::ptrdiff_t of_these(const Fit& fit, const std::set<std::string>& effects) {
+  return std::count_if(fit.families.begin(), fit.families.end(),
+                       [&](const Family& f) { return effects.count(f.effect) > 0; });
+}
 
 double share_that_may_err(const Fit& base, const Thresholds& t) {
   const auto scrubs = [](const Family& f) { return bool(f.with); };
@@ -28,12 +60,24 @@ bool adds_local(const Fit& base, const Fit& fit) {
   });
 }
 
-// Squares, in standard deviations, that a fit leaves beyond noise.
+// Squares, in standard deviations, that a fit leaves beyond noise. Single readings count up to a bound only: a cable or
+// a patch that shakes the robot otherwise than foretold leaves much at one place, which says nothing of the rest.
 double excess(const Model& model, const Fit& fit) {
-  return std::max(0.0, fit.misfit - (1 + Thresholds{}.noise_error) * model.rows());
+  double sum = 0;
+  for (const Eigen::VectorXd& left : model.left_over(fit)) sum += left.cwiseAbs2().cwiseMin(kMostOfReading).sum();
+  return std::clamp(sum - (1 + Thresholds{}.noise_error) * model.rows(), 0.0,
+                    std::max(0.0, fit.misfit - (1 + Thresholds{}.noise_error) * model.rows()));
 }
 
 }  // namespace
+
+double lookalike_share(const Fit& base, const Fit& fit) {
+  double share = 0;
+  for (const Lookalikes& l : lookalikes()) {
+    if (of_these(base, l.of) > 0 && of_these(fit, l.effects) > of_these(base, l.effects)) share = std::max(share, l.share);
+  }
+  return share;
+}
 
 double seen_between(const Model& model, const Fit& base, const Fit& fit) {
   double square = 0;
@@ -55,6 +99,7 @@ Needed addition_needed(const Model& model, const Fit& base, const Fit& none, con
   const double own = spread * (t.addition + std::max(share_that_may_err(base, t) * gained, off));
   const double for_misfit = t.misfit_share * left / 2;
   Needed needed;
+  needed.gained = gained;
   needed.everywhere = std::max(own, for_misfit);
   needed.local = std::max(own, t.local_misfit_share * left / 2);
   // Counts and habits are measured as they are: no noise of the tracks, and no misfit of theirs, speaks against them.
@@ -66,6 +111,7 @@ Needed addition_needed(const Model& model, const Fit& base, const Fit& none, con
 
 bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& needed, double extra) {
   const double gain = fit.log_evidence - base.log_evidence;
+  if (gain < extra * lookalike_share(base, fit) * needed.gained) return false;
   // What leaves most of the misfit as it was mends an error of the model, as any effect could.
   const bool leaves_most = excess(model, fit) > kMost * excess(model, base);
   const bool dear = leaves_most || adds_local(base, fit);

@@ -9,8 +9,13 @@ struct Needed {
   double everywhere = 0;  ///< of an effect that acts on all runs
   double local = 0;       ///< of one place or moment, which finds something to mend in any misfit
   double counts = 0;      ///< or of counts against commands and of habits alone, where tracks say little
+  double gained = 0;      ///< what the fit itself brought
   double hint = 0;        ///< what the linear screen must see of it, for a fit to be tried
 };
+
+/// Share of what `base` brought that `fit`, with one effect more, must bring on top: more than nothing where that effect is
+/// what an error of an effect's model in `base` looks like, such as slip beside coarse counts.
+double lookalike_share(const Fit& base, const Fit& fit);
 
 /// Sum of squares of what a fit changes in the whitened tracks.
 double seen_between(const Model& model, const Fit& base, const Fit& fit);

@@ -26,9 +26,12 @@ struct Thresholds {
   double noise_error = 0.1; ///< a misfit larger by this share is no news: three sd of two pairs of repeats
   double tie = 6;           ///< log evidence within which two explanations are not told apart
   double known_share = 0.93; ///< of the explainable evidence that named effects must explain, or the cause is unknown
-  double least_closure = 0.3; ///< that the held-out closure's interval must reach, where half of the misfit is left
-  double misfit_left = 0.6; ///< of the misfit beyond the noise, above which the cause is unknown, too
+  double known_share_of_toe = 0.7; ///< the same of toed wheels, whose scrub depends on tyres that nobody knows
+  double least_closure = 0.3; ///< that the held-out closure's interval must reach,
+  double most_left = 0.5;   ///< where what is explained is less than this share of what is left
+  double misfit_left = 0.68; ///< of the misfit beyond the noise, above which the cause is unknown, too
   double beside_floor = 0.05; ///< share of the misfit that an effect beside an uneven floor must explain
+  double place_beside_floor = 0.3; ///< the same of a place or moment
   int most_effects = 3;
 };
 

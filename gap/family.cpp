@@ -25,9 +25,10 @@ Family from_start(Family family, double start) {
 }  // namespace
 
 bool shows_in_counts(const EffectInfo& info) {
-  return info.stage == Stage::drivetrain || info.stage == Stage::encoder || info.name == "over_acceleration" ||
-         info.name == "fast_turning";
+  return info.stage == Stage::drivetrain || info.stage == Stage::encoder || is_demand(info.name);
 }
+
+bool is_demand(const std::string& effect) { return effect == "over_acceleration" || effect == "fast_turning"; }
 
 Effect effect_of(const Family& family, const Eigen::VectorXd& p) {
   return {&find_effect(family.effect), family.values(p)};

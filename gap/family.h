@@ -43,6 +43,9 @@ Effect effect_of(const Family& family, const Eigen::VectorXd& p);
 /// Whether counts against commands, or how the robot was driven and read, show the effect; others only move the robot.
 bool shows_in_counts(const EffectInfo& info);
 
+/// Whether the effect is what was asked of the robot, beyond the course.
+bool is_demand(const std::string& effect);
+
 /// Every family of the catalogue that needs no search for a place or moment.
 /// `period_s` and `ticks_per_revolution`: of the recording's encoders.
 std::vector<Family> plain_families(double period_s, double ticks_per_revolution);

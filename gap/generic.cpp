@@ -134,7 +134,26 @@ double shared_density(const Model& model, const std::vector<RunGram>& grams) {
   return best;
 }
 
+double density_of(const Model& model, const std::vector<RunGram>& grams, const Eigen::VectorXd& sd) {
+  return evidence(grams, model.all_runs(), first_columns(sd.size()), sd).log_density;
+}
+
 }  // namespace
+
+double steady_gain(const Model& model, const Fit& fit) {
+  const std::size_t runs = model.recording().runs.size();
+  const std::vector<Eigen::VectorXd> residual = model.residuals(fit.predicted);
+  std::vector<Eigen::MatrixXd> habits(runs);
+  tbb::parallel_for(std::size_t(0), runs, [&](std::size_t r) {
+    const Raw raw = raw_columns(model, r);
+    habits[r] = Eigen::MatrixXd::Zero(residual[r].size(), kHabits);
+    habits[r].topRows(raw.habits.rows()) = model.filter(r).whiten(raw.habits);
+  });
+  Eigen::VectorXd sd(model.nuisances() + kHabits);
+  sd << model.nuisance_sd(), habits_sd();
+  return density_of(model, model.grams(residual, habits), sd) -
+         density_of(model, model.grams(residual, {}), model.nuisance_sd());
+}
 
 double generic_gain(const Model& model, const Fit& fit) {
   const std::size_t runs = model.recording().runs.size();
@@ -152,7 +171,7 @@ double generic_gain(const Model& model, const Fit& fit) {
     radii[r] = {model.own_columns(r).leftCols(2), Eigen::VectorXd::Constant(2, kOwnRadius)};
   });
   const auto density = [&](const std::vector<RunGram>& grams, const Eigen::VectorXd& sd) {
-    return evidence(grams, model.all_runs(), first_columns(sd.size()), sd).log_density;
+    return density_of(model, grams, sd);
   };
   Eigen::VectorXd rippled(model.nuisances() + kRipples);
   rippled << model.nuisance_sd(), Eigen::VectorXd::Constant(kRipples, kRipple_rad);

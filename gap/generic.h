@@ -12,4 +12,8 @@ namespace umbsim::gap {
 /// What one of them finds and no effect does is unknown.
 double generic_gain(const Model& model, const Fit& fit);
 
+/// The part of it that goes on while the robot rolls at constant speed: ripples with the wheels' angles, a drift over
+/// the floor, radii that change from run to run.
+double steady_gain(const Model& model, const Fit& fit);
+
 }  // namespace umbsim::gap

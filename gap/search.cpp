@@ -72,11 +72,6 @@ Eigen::VectorXd searched_start(const Model& model, const Fit& base, Screen::Cand
   return pattern_search(density_on(model, base, c.family), c.start, c.reach, min, max, kHalvings, kMostTries);
 }
 
-// The demand itself.
-bool asked_for(const Family& family) {
-  return family.effect == "over_acceleration" || family.effect == "fast_turning";
-}
-
 // Nothing is left but noise, as well as it is known.
 bool explains_all(const Model& model, const Fit& fit, const Thresholds& t) {
   return fit.misfit < (1 + t.noise_error) * model.rows();
@@ -142,7 +137,7 @@ class Search {
       const double needed = singles[i].family.from_zero ? 2 : 1;
       if (singles[i].gain < needed) continue;
       // What commands show is tried however much more the tracks say of something else.
-      const bool shown = asked_for(singles[i].family) && singles[i].gain > kShown;
+      const bool shown = is_demand(singles[i].family.effect) && singles[i].gain > kShown;
       if (i >= kSinglesFitted && singles[i].gain < best_gain - 15 && !shown) continue;
       if (!singles[i].starts.empty() && idle(singles[i])) continue;
       if (auto fit = tried(none_, singles[i])) fits_.push_back(std::move(*fit));

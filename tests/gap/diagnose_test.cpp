@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "gap/addition.h"
 #include "gap/check.h"
 #include "gap/diagnosis_json.h"
 #include "tests/gap/patient.h"
@@ -152,6 +153,39 @@ TEST(Diagnose, WhatCommandsShowStandsBesideUnknown) {
   std::cout << text(d) << "\n";
   EXPECT_EQ(d.causes.front().name, "unknown");
   EXPECT_NE(std::find(d.set.begin(), d.set.end(), "fast_turning"), d.set.end());
+}
+
+// How tyres slip under a demand is not always reproduced: turns that go wrong where commands show that they were too fast
+// do so for that reason. (Here a wheelbase that the catalogue lacks stands for the tyres.)
+TEST(Diagnose, ADemandThatCommandsShowExplainsWhatGoesWrongInTurns) {
+  const Patient p(
+      campaign({effect("wheelbase", {{"relative", 0.008}}), effect("fast_turning", {{"factor", 3}})}, 16));
+  EXPECT_EQ(p.diagnosed().causes.front().name, "fast_turning+wheelbase");
+  const Diagnosis d = p.diagnosed({"wheelbase"});
+  std::cout << text(d) << "\n";
+  EXPECT_EQ(d.causes.front().name, "fast_turning");
+  EXPECT_TRUE(d.unexplained);
+  EXPECT_EQ(d.closure.fraction, 0);
+}
+
+Fit fit_of(const std::vector<std::string>& effects) {
+  Fit fit;
+  for (const std::string& effect : effects) {
+    fit.families.emplace_back();
+    fit.families.back().effect = effect;
+  }
+  return fit;
+}
+
+// What undone counts, scrubbing tyres and sliding wheels leave looks like certain other effects, and like no others.
+TEST(Addition, WhatLooksLikeAnErrorOfTheFirstEffectMustBringMore) {
+  const Fit coarse = fit_of({"encoder_resolution"});
+  EXPECT_GT(lookalike_share(coarse, fit_of({"encoder_resolution", "slippery_floor"})), 0.05);
+  EXPECT_EQ(lookalike_share(coarse, fit_of({"encoder_resolution", "wheelbase"})), 0);
+  const Fit slides = fit_of({"encoder_resolution", "slippery_floor"});
+  EXPECT_GT(lookalike_share(slides, fit_of({"encoder_resolution", "slippery_floor", "encoder_latency"})), 0.05);
+  EXPECT_EQ(lookalike_share(slides, fit_of({"encoder_resolution", "slippery_floor", "bump"})), 0);
+  EXPECT_EQ(lookalike_share(fit_of({"wheelbase"}), fit_of({"wheelbase", "tyre_creep"})), 0);
 }
 
 TEST(Diagnose, ASmallEffectBesideALargeOne) {
