@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kAsGood = 1.001;       // held-out error of a combination, over that of something simpler
 constexpr double kWorthKnowing = 0.05;  // what effects explain, over the misfit that they leave
+constexpr double kGoodPart = 0.3;       // of what a combination explains, for one of its effects alone
 constexpr double kPlainlyShown = 100;   // log evidence of counts and commands
 constexpr double kMostOfCounts = 0.8;   // of what counts miss, for a demand to be the cause
 constexpr double kMostSteady = 0.3;      // of what anything could explain, that goes on at constant speed, the same
@@ -113,13 +114,29 @@ std::vector<std::string> tied(const std::vector<Cause>& causes, const Thresholds
   return names;
 }
 
+void add_to_set(const std::string& name, Diagnosis& d) {
+  if (std::find(d.set.begin(), d.set.end(), name) == d.set.end()) d.set.push_back(name);
+}
+
+// An explanation, and those of its effects that explain much of the same alone.
+void add_what_explains(const Fit& best, const Fit& none, Diagnosis& d) {
+  add_to_set(best.name(), d);
+  const double all = best.log_evidence - none.log_evidence;
+  for (const Cause& c : d.causes) {
+    const bool part = c.fit.families.size() == 1 &&
+                      std::any_of(best.families.begin(), best.families.end(),
+                                  [&](const Family& f) { return f.effect == c.fit.families.front().effect; });
+    if (part && c.fit.log_evidence - none.log_evidence > kGoodPart * all) add_to_set(c.name, d);
+  }
+}
+
 // What counts and commands plainly show is there, whatever else there may be.
 void add_what_counts_show(const Model& model, const Fit& none, Diagnosis& d) {
   const double before = model.counts_misfit(none.predicted);
   for (const Cause& c : d.causes) {
     if (c.fit.families.size() != 1 || !shows_in_counts(find_effect(c.fit.families.front().effect))) continue;
     if (before - model.counts_misfit(c.fit.predicted) < 2 * kPlainlyShown) continue;
-    if (std::find(d.set.begin(), d.set.end(), c.name) == d.set.end()) d.set.push_back(c.name);
+    add_to_set(c.name, d);
   }
 }
 
@@ -297,9 +314,10 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   d.set = tied(d.causes, t);
   // What explains more than anything of no particular cause could is worth knowing, even where it is not the whole.
   const bool worth_knowing = !best.families.empty() && explained > std::max(left_generic, kWorthKnowing * lack);
-  const bool there = std::find(d.set.begin(), d.set.end(), best.name()) != d.set.end();
-  if (d.causes.front().name == "unknown" && worth_knowing && !there) d.set.push_back(best.name());
-  if (d.causes.front().name == "unknown") add_what_counts_show(model, none, d);
+  if (d.causes.front().name == "unknown") {
+    if (worth_knowing) add_what_explains(best, none, d);
+    add_what_counts_show(model, none, d);
+  }
   d.segments = segment_scores(model, none);
   if (d.segments.size() > 12) d.segments.resize(12);
   if (d.detected && !best.families.empty()) {
