@@ -12,9 +12,9 @@ namespace {
 // Variance by which an effect's signature may be off, another engine's robot for one: of the whole signature, for
 // nuisances like a clock's offset that take up most of it do not take up its error.
 constexpr double kSignatureError = 3e-4;
-constexpr double kMost = 0.5;   // of the misfit
+constexpr double kMost = 0.5;          // of the misfit
 constexpr double kMostOfReading = 16;  // squared standard deviations
-constexpr double kPlain = 2.5;  // times what counts must show
+constexpr double kPlain = 2.5;         // times what counts must show
 
 // Toed wheels scrub, and how tyres give way to it is fitted with two numbers only: of what they explain, this share may
 // be another tyre's.
@@ -74,7 +74,8 @@ double excess(const Model& model, const Fit& fit) {
 double lookalike_share(const Fit& base, const Fit& fit) {
   double share = 0;
   for (const Lookalikes& l : lookalikes()) {
-    if (of_these(base, l.of) > 0 && of_these(fit, l.effects) > of_these(base, l.effects)) share = std::max(share, l.share);
+    const bool more = of_these(fit, l.effects) > of_these(base, l.effects);
+    if (of_these(base, l.of) > 0 && more) share = std::max(share, l.share);
   }
   return share;
 }

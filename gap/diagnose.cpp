@@ -7,11 +7,12 @@
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "gap/addition.h"
+#include "gap/answer_set.h"
 #include "gap/closure.h"
 #include "gap/generic.h"
+#include "gap/not_fitted.h"
 #include "gap/search.h"
 #include "gap/track_misfit.h"
-#include "gap/uneven_floor.h"
 #include "gap/where.h"
 
 namespace umbsim::gap {
@@ -19,10 +20,6 @@ namespace {
 
 constexpr double kAsGood = 1.001;       // held-out error of a combination, over that of something simpler
 constexpr double kWorthKnowing = 0.05;  // what effects explain, over the misfit that they leave
-constexpr double kGoodPart = 0.3;       // of what a combination explains, for one of its effects alone
-constexpr double kPlainlyShown = 100;   // log evidence of counts and commands
-constexpr double kMostOfCounts = 0.8;   // of what counts miss, for a demand to be the cause
-constexpr double kMostSteady = 0.3;      // of what anything could explain, that goes on at constant speed, the same
 constexpr double kOverconfidence = 2;   // evidence is divided by this before it becomes probability
 
 double tail(double chi_squared, double degrees_of_freedom) {
@@ -104,42 +101,6 @@ void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const 
 
 Stage stage_of(const Fit& fit) { return find_effect(fit.families.front().effect).stage; }
 
-// Effects whose evidence hardly differs once both are fitted.
-std::vector<std::string> tied(const std::vector<Cause>& causes, const Thresholds& t) {
-  std::vector<std::string> names;
-  for (const Cause& c : causes) {
-    if (c.name == "none" && causes.front().name != "none") continue;
-    if (causes.front().score - c.score <= t.tie) names.push_back(c.name);
-  }
-  return names;
-}
-
-void add_to_set(const std::string& name, Diagnosis& d) {
-  if (std::find(d.set.begin(), d.set.end(), name) == d.set.end()) d.set.push_back(name);
-}
-
-// An explanation, and those of its effects that explain much of the same alone.
-void add_what_explains(const Fit& best, const Fit& none, Diagnosis& d) {
-  add_to_set(best.name(), d);
-  const double all = best.log_evidence - none.log_evidence;
-  for (const Cause& c : d.causes) {
-    const bool part = c.fit.families.size() == 1 &&
-                      std::any_of(best.families.begin(), best.families.end(),
-                                  [&](const Family& f) { return f.effect == c.fit.families.front().effect; });
-    if (part && c.fit.log_evidence - none.log_evidence > kGoodPart * all) add_to_set(c.name, d);
-  }
-}
-
-// What counts and commands plainly show is there, whatever else there may be.
-void add_what_counts_show(const Model& model, const Fit& none, Diagnosis& d) {
-  const double before = model.counts_misfit(none.predicted);
-  for (const Cause& c : d.causes) {
-    if (c.fit.families.size() != 1 || !shows_in_counts(find_effect(c.fit.families.front().effect))) continue;
-    if (before - model.counts_misfit(c.fit.predicted) < 2 * kPlainlyShown) continue;
-    add_to_set(c.name, d);
-  }
-}
-
 void find_place(const Model& model, const Fit& fit, Diagnosis& d) {
   for (const Effect& e : fit.effects()) {
     const std::string pattern = pattern_of(e.info->name);
@@ -176,41 +137,17 @@ void add_nothing(Closure& closure) {
   closure.after_deg = closure.before_deg;
 }
 
-// What the best explanation leaves may be an uneven floor. The same shifts of many passes pretend to be many numbers:
-// an effect beside the floor has to explain a good share.
-std::optional<Fit> with_uneven_floor(const Model& model, const Fit& none, const Fit& best, const Thresholds& t) {
-  const double explained = best.log_evidence - none.log_evidence;
-  // A place is part of the floor, unless it is far more than the rest.
-  const bool local = std::any_of(best.families.begin(), best.families.end(), [](const Family& f) { return f.search_cost > 0; });
-  const double share = local ? t.place_beside_floor : t.beside_floor;
-  const bool stays = explained > share * (explained + lack_of_fit(model, best, t));
-  const Fit& beside = stays ? best : none;
-  const auto floor = find_uneven_floor(model, beside);
-  if (!floor) return {};
-  return on_uneven_floor(beside, *floor);
+// What is named in place of unknown, ahead of what the search found best.
+void put_first(const Fit& fit, double leftover, Diagnosis& d) {
+  const double score = d.causes.front().score + 0.5 * leftover;
+  const auto same = [&](const Cause& c) { return c.name == fit.name(); };
+  d.causes.erase(std::remove_if(d.causes.begin(), d.causes.end(), same), d.causes.end());
+  d.causes.insert(d.causes.begin(), Cause{fit.name(), fit, score, 0});
 }
 
 double known_share(const Fit& fit, const Thresholds& t) {
   const auto toe = [](const Family& f) { return f.effect == "wheel_misalignment"; };
   return std::any_of(fit.families.begin(), fit.families.end(), toe) ? t.known_share_of_toe : t.known_share;
-}
-
-// A demand beyond the course that commands plainly show is the cause, whatever the tyres make of it: when they let go
-// under a jolt differs from engine to engine, and from tyre to tyre. What goes wrong at constant speed is not its doing.
-std::optional<Fit> plain_demand(const Model& model, const std::vector<Cause>& causes, const Fit& none,
-                                double generic_none) {
-  if (steady_gain(model, none) > kMostSteady * generic_none) return {};
-  const double before = model.counts_misfit(none.predicted);
-  std::optional<Fit> found;
-  double most = std::max(2 * kPlainlyShown, kMostOfCounts * before);
-  for (const Cause& c : causes) {
-    const bool demand = c.fit.families.size() == 1 && is_demand(c.fit.families.front().effect);
-    const double shown = demand ? before - model.counts_misfit(c.fit.predicted) : 0;
-    if (shown < most) continue;
-    found = c.fit;
-    most = shown;
-  }
-  return found;
 }
 
 }  // namespace
@@ -262,28 +199,26 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   if (d.detected) {
     // An explanation that leaves much, or that foretells nothing of the other conditions, is none.
     d.closure = held_out_closure(model, best);
-    const bool foretells = !d.closure.known || d.closure.ci95[1] > t.least_closure || explained > t.most_left * leftover;
-    bool unknown = d.unexplained && (!foretells || explained < known_share(best, t) * (explained + left_generic) ||
-                                     lack > t.misfit_left * lack_none);
+    const bool much = explained > t.most_left * leftover;
+    const bool foretells = !d.closure.known || d.closure.ci95[1] > t.least_closure || much;
+    const bool little = explained < known_share(best, t) * (explained + left_generic);
+    bool unknown = d.unexplained && (!foretells || little || lack > t.misfit_left * lack_none);
     if (unknown && excluded.count("uneven_floor") == 0) {
-      if (std::optional<Fit> uneven = with_uneven_floor(model, none, best, t)) {
+      if (const std::optional<Fit> uneven = with_uneven_floor(model, none, best, lack, t)) {
         if (uneven->families.size() == 1) add_nothing(d.closure);
         best = *uneven;
         unknown = false;
-        d.causes.insert(d.causes.begin(), Cause{best.name(), best, d.causes.front().score + 0.5 * leftover, 0});
+        put_first(best, leftover, d);
         d.limits.push_back("an uneven floor's shape is not fitted: the twin has no such floor");
       }
     }
     if (unknown) {
       if (const std::optional<Fit> demand = plain_demand(model, d.causes, none, generic_none)) {
+        add_nothing(d.closure);
         best = *demand;
         unknown = false;
         explained = best.log_evidence - none.log_evidence;
-        add_nothing(d.closure);
-        const double front_score = d.causes.front().score;
-        const auto same = [&](const Cause& c) { return c.name == best.name(); };
-        d.causes.erase(std::remove_if(d.causes.begin(), d.causes.end(), same), d.causes.end());
-        d.causes.insert(d.causes.begin(), Cause{best.name(), best, front_score + 0.5 * leftover, 0});
+        put_first(best, leftover, d);
         d.limits.push_back("commands show the demand; how the tyres slip under it is not reproduced");
       }
     }

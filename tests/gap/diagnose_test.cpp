@@ -155,8 +155,8 @@ TEST(Diagnose, WhatCommandsShowStandsBesideUnknown) {
   EXPECT_NE(std::find(d.set.begin(), d.set.end(), "fast_turning"), d.set.end());
 }
 
-// How tyres slip under a demand is not always reproduced: turns that go wrong where commands show that they were too fast
-// do so for that reason. (Here a wheelbase that the catalogue lacks stands for the tyres.)
+// How tyres slip under a demand is not always reproduced: turns that go wrong where commands show that they were too
+// fast do so for that reason. (Here a wheelbase that the catalogue lacks stands for the tyres.)
 TEST(Diagnose, ADemandThatCommandsShowExplainsWhatGoesWrongInTurns) {
   const Patient p(
       campaign({effect("wheelbase", {{"relative", 0.008}}), effect("fast_turning", {{"factor", 3}})}, 16));

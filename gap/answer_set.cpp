@@ -1,0 +1,49 @@
+#include "gap/answer_set.h"
+
+#include <algorithm>
+
+namespace umbsim::gap {
+namespace {
+
+constexpr double kGoodPart = 0.3;      // of what a combination explains, for one of its effects alone
+constexpr double kPlainlyShown = 100;  // log evidence of counts and commands
+
+void add_to_set(const std::string& name, Diagnosis& d) {
+  if (std::find(d.set.begin(), d.set.end(), name) == d.set.end()) d.set.push_back(name);
+}
+
+}  // namespace
+
+// Effects whose evidence hardly differs once both are fitted.
+std::vector<std::string> tied(const std::vector<Cause>& causes, const Thresholds& t) {
+  std::vector<std::string> names;
+  for (const Cause& c : causes) {
+    if (c.name == "none" && causes.front().name != "none") continue;
+    if (causes.front().score - c.score <= t.tie) names.push_back(c.name);
+  }
+  return names;
+}
+
+// An explanation, and those of its effects that explain much of the same alone.
+void add_what_explains(const Fit& best, const Fit& none, Diagnosis& d) {
+  add_to_set(best.name(), d);
+  const double all = best.log_evidence - none.log_evidence;
+  for (const Cause& c : d.causes) {
+    const bool part = c.fit.families.size() == 1 &&
+                      std::any_of(best.families.begin(), best.families.end(),
+                                  [&](const Family& f) { return f.effect == c.fit.families.front().effect; });
+    if (part && c.fit.log_evidence - none.log_evidence > kGoodPart * all) add_to_set(c.name, d);
+  }
+}
+
+// What counts and commands plainly show is there, whatever else there may be.
+void add_what_counts_show(const Model& model, const Fit& none, Diagnosis& d) {
+  const double before = model.counts_misfit(none.predicted);
+  for (const Cause& c : d.causes) {
+    if (c.fit.families.size() != 1 || !shows_in_counts(find_effect(c.fit.families.front().effect))) continue;
+    if (before - model.counts_misfit(c.fit.predicted) < 2 * kPlainlyShown) continue;
+    add_to_set(c.name, d);
+  }
+}
+
+}  // namespace umbsim::gap
