@@ -13,8 +13,8 @@ struct Needed {
   double hint = 0;        ///< what the linear screen must see of it, for a fit to be tried
 };
 
-/// Share of what `base` brought that `fit`, with one effect more, must bring on top: above zero where that effect is what
-/// an error of an effect's model in `base` looks like, such as slip beside coarse counts.
+/// Share of what `base` brought that `fit`, with one effect more, must bring on top: above zero where that effect is
+/// what an error of an effect's model in `base` looks like, such as slip beside coarse counts.
 double lookalike_share(const Fit& base, const Fit& fit);
 
 /// Sum of squares of what a fit changes in the whitened tracks.
