@@ -5,8 +5,7 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr double kGoodPart = 0.3;      // of what a combination explains, for one of its effects alone
-constexpr double kPlainlyShown = 100;  // log evidence of counts and commands
+constexpr double kGoodPart = 0.3;  // of what a combination explains, for one of its effects alone
 
 void add_to_set(const std::string& name, Diagnosis& d) {
   if (std::find(d.set.begin(), d.set.end(), name) == d.set.end()) d.set.push_back(name);
@@ -14,7 +13,6 @@ void add_to_set(const std::string& name, Diagnosis& d) {
 
 }  // namespace
 
-// Effects whose evidence hardly differs once both are fitted.
 std::vector<std::string> tied(const std::vector<Cause>& causes, const Thresholds& t) {
   std::vector<std::string> names;
   for (const Cause& c : causes) {
@@ -24,7 +22,6 @@ std::vector<std::string> tied(const std::vector<Cause>& causes, const Thresholds
   return names;
 }
 
-// An explanation, and those of its effects that explain much of the same alone.
 void add_what_explains(const Fit& best, const Fit& none, Diagnosis& d) {
   add_to_set(best.name(), d);
   const double all = best.log_evidence - none.log_evidence;
@@ -36,12 +33,11 @@ void add_what_explains(const Fit& best, const Fit& none, Diagnosis& d) {
   }
 }
 
-// What counts and commands plainly show is there, whatever else there may be.
-void add_what_counts_show(const Model& model, const Fit& none, Diagnosis& d) {
+void add_what_counts_show(const Model& model, const Fit& none, const Thresholds& t, Diagnosis& d) {
   const double before = model.counts_misfit(none.predicted);
   for (const Cause& c : d.causes) {
     if (c.fit.families.size() != 1 || !shows_in_counts(find_effect(c.fit.families.front().effect))) continue;
-    if (before - model.counts_misfit(c.fit.predicted) < 2 * kPlainlyShown) continue;
+    if (before - model.counts_misfit(c.fit.predicted) < 2 * t.plainly_shown) continue;
     add_to_set(c.name, d);
   }
 }

@@ -14,6 +14,6 @@ std::vector<std::string> tied(const std::vector<Cause>& causes, const Thresholds
 void add_what_explains(const Fit& best, const Fit& none, Diagnosis& d);
 
 /// Adds the effects that counts and commands plainly show: they are there, whatever else there may be.
-void add_what_counts_show(const Model& model, const Fit& none, Diagnosis& d);
+void add_what_counts_show(const Model& model, const Fit& none, const Thresholds& thresholds, Diagnosis& d);
 
 }  // namespace umbsim::gap

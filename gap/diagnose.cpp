@@ -213,7 +213,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
       }
     }
     if (unknown) {
-      if (const std::optional<Fit> demand = plain_demand(model, d.causes, none, generic_none)) {
+      if (const std::optional<Fit> demand = plain_demand(model, d.causes, none, generic_none, t)) {
         add_nothing(d.closure);
         best = *demand;
         unknown = false;
@@ -251,7 +251,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   const bool worth_knowing = !best.families.empty() && explained > std::max(left_generic, kWorthKnowing * lack);
   if (d.causes.front().name == "unknown") {
     if (worth_knowing) add_what_explains(best, none, d);
-    add_what_counts_show(model, none, d);
+    add_what_counts_show(model, none, t, d);
   }
   d.segments = segment_scores(model, none);
   if (d.segments.size() > 12) d.segments.resize(12);

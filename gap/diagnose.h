@@ -30,6 +30,7 @@ struct Thresholds {
   double least_closure = 0.3; ///< that the held-out closure's interval must reach,
   double most_left = 0.5;   ///< where what is explained is less than this share of what is left
   double misfit_left = 0.68; ///< of the misfit beyond the noise, above which the cause is unknown, too
+  double plainly_shown = 100; ///< log evidence of counts and commands that leaves no doubt
   double beside_floor = 0.05; ///< share of the misfit that an effect beside an uneven floor must explain
   double place_beside_floor = 0.3; ///< the same of a place or moment
   int most_effects = 3;

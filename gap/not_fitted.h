@@ -16,6 +16,6 @@ std::optional<Fit> with_uneven_floor(const Model& model, const Fit& none, const 
 /// under a jolt differs from engine to engine, and from tyre to tyre. `generic_none`: what errors of no particular
 /// cause gain without any effect.
 std::optional<Fit> plain_demand(const Model& model, const std::vector<Cause>& causes, const Fit& none,
-                                double generic_none);
+                                double generic_none, const Thresholds& thresholds);
 
 }  // namespace umbsim::gap
