@@ -65,8 +65,7 @@ bool adds_local(const Fit& base, const Fit& fit) {
 double excess(const Model& model, const Fit& fit) {
   double sum = 0;
   for (const Eigen::VectorXd& left : model.left_over(fit)) sum += left.cwiseAbs2().cwiseMin(kMostOfReading).sum();
-  return std::clamp(sum - (1 + Thresholds{}.noise_error) * model.rows(), 0.0,
-                    std::max(0.0, fit.misfit - (1 + Thresholds{}.noise_error) * model.rows()));
+  return std::max(0.0, std::min(sum, fit.misfit) - (1 + Thresholds{}.noise_error) * model.rows());
 }
 
 }  // namespace
@@ -101,6 +100,7 @@ Needed addition_needed(const Model& model, const Fit& base, const Fit& none, con
   const double for_misfit = t.misfit_share * left / 2;
   Needed needed;
   needed.gained = gained;
+  needed.left = left;
   needed.everywhere = std::max(own, for_misfit);
   needed.local = std::max(own, t.local_misfit_share * left / 2);
   // Counts and habits are measured as they are: no noise of the tracks, and no misfit of theirs, speaks against them.
@@ -114,7 +114,7 @@ bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& nee
   const double gain = fit.log_evidence - base.log_evidence;
   if (gain < extra * lookalike_share(base, fit) * needed.gained) return false;
   // What leaves most of the misfit as it was mends an error of the model, as any effect could.
-  const bool leaves_most = excess(model, fit) > kMost * excess(model, base);
+  const bool leaves_most = excess(model, fit) > kMost * needed.left;
   const bool dear = leaves_most || adds_local(base, fit);
   if (gain >= extra * (dear ? needed.local : needed.everywhere)) return true;
   const double counts = (model.counts_misfit(base.predicted) - model.counts_misfit(fit.predicted)) / 2;

@@ -10,6 +10,7 @@ struct Needed {
   double local = 0;       ///< of one place or moment, which finds something to mend in any misfit
   double counts = 0;      ///< or of counts against commands and of habits alone, where tracks say little
   double gained = 0;      ///< what the fit itself brought
+  double left = 0;        ///< squares, in standard deviations, that the fit leaves beyond noise
   double hint = 0;        ///< what the linear screen must see of it, for a fit to be tried
 };
 

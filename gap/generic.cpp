@@ -134,6 +134,13 @@ double shared_density(const Model& model, const std::vector<RunGram>& grams) {
   return best;
 }
 
+// Whitened, with zeros below where counts stand against commands.
+Eigen::MatrixXd whitened(const Model& model, std::size_t r, const Eigen::MatrixXd& raw, Eigen::Index rows) {
+  Eigen::MatrixXd white = Eigen::MatrixXd::Zero(rows, raw.cols());
+  white.topRows(raw.rows()) = model.filter(r).whiten(raw);
+  return white;
+}
+
 double density_of(const Model& model, const std::vector<RunGram>& grams, const Eigen::VectorXd& sd) {
   return evidence(grams, model.all_runs(), first_columns(sd.size()), sd).log_density;
 }
@@ -145,9 +152,7 @@ double steady_gain(const Model& model, const Fit& fit) {
   const std::vector<Eigen::VectorXd> residual = model.residuals(fit.predicted);
   std::vector<Eigen::MatrixXd> habits(runs);
   tbb::parallel_for(std::size_t(0), runs, [&](std::size_t r) {
-    const Raw raw = raw_columns(model, r);
-    habits[r] = Eigen::MatrixXd::Zero(residual[r].size(), kHabits);
-    habits[r].topRows(raw.habits.rows()) = model.filter(r).whiten(raw.habits);
+    habits[r] = whitened(model, r, raw_columns(model, r).habits, residual[r].size());
   });
   Eigen::VectorXd sd(model.nuisances() + kHabits);
   sd << model.nuisance_sd(), habits_sd();
@@ -163,10 +168,8 @@ double generic_gain(const Model& model, const Fit& fit) {
   std::vector<LocalColumns> radii(runs);
   tbb::parallel_for(std::size_t(0), runs, [&](std::size_t r) {
     const Raw raw = raw_columns(model, r);
-    habits[r] = Eigen::MatrixXd::Zero(residual[r].size(), kHabits);
-    habits[r].topRows(raw.habits.rows()) = model.filter(r).whiten(raw.habits);
-    parts[r].columns = Eigen::MatrixXd::Zero(residual[r].size(), raw.parts.cols());
-    parts[r].columns.topRows(raw.parts.rows()) = model.filter(r).whiten(raw.parts);
+    habits[r] = whitened(model, r, raw.habits, residual[r].size());
+    parts[r].columns = whitened(model, r, raw.parts, residual[r].size());
     parts[r].prior_sd = raw.parts_sd;
     radii[r] = {model.own_columns(r).leftCols(2), Eigen::VectorXd::Constant(2, kOwnRadius)};
   });
