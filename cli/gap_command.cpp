@@ -75,6 +75,7 @@ std::string summary_text(const gap::Diagnosis& d, const std::vector<gap::NextExp
   if (!d.detected) {
     text += fmt::format("No gap beyond the noise (floor {:.1f} mm, scenario off by {:.1f} mm).\n", d.noise_floor_mm,
                         d.before_mm);
+    if (d.set.size() > 1) text += fmt::format("Not told apart: {}\n", fmt::join(d.set, ", "));
   } else {
     text += fmt::format("Gap: the scenario is off by {:.1f} mm; run-to-run noise makes {:.1f} mm.\n", d.before_mm,
                         d.noise_floor_mm);

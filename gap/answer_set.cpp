@@ -7,6 +7,15 @@ namespace {
 
 constexpr double kGoodPart = 0.3;  // of what a combination explains, for one of its effects alone
 
+constexpr double kHint = 3;  // log evidence of what is too small to be named, or does not pay
+
+bool holds_all(const Fit& fit, const Fit& part) {
+  return std::all_of(part.families.begin(), part.families.end(), [&](const Family& f) {
+    return std::any_of(fit.families.begin(), fit.families.end(),
+                       [&](const Family& g) { return g.effect == f.effect; });
+  });
+}
+
 void add_to_set(const std::string& name, Diagnosis& d) {
   if (std::find(d.set.begin(), d.set.end(), name) == d.set.end()) d.set.push_back(name);
 }
@@ -40,6 +49,21 @@ void add_what_counts_show(const Model& model, const Fit& none, const Thresholds&
     if (before - model.counts_misfit(c.fit.predicted) < 2 * t.plainly_shown) continue;
     add_to_set(c.name, d);
   }
+}
+
+void add_doubtful(const std::vector<Fit>& doubtful, const Fit& none, Diagnosis& d) {
+  const Cause& first = d.causes.front();
+  if (first.name == "unknown") return;
+  const bool nothing = first.name == "none";
+  const std::size_t effects = (nothing ? 0 : first.fit.families.size()) + 1;
+  const double known = nothing ? none.log_evidence : first.fit.log_evidence;
+  const Fit* likeliest = nullptr;
+  for (const Fit& f : doubtful) {
+    if (f.families.size() != effects || f.log_evidence < known + kHint) continue;
+    if (!nothing && !holds_all(f, first.fit)) continue;
+    if (!likeliest || f.log_evidence > likeliest->log_evidence) likeliest = &f;
+  }
+  if (likeliest) add_to_set(likeliest->name(), d);
 }
 
 }  // namespace umbsim::gap

@@ -16,4 +16,8 @@ void add_what_explains(const Fit& best, const Fit& none, Diagnosis& d);
 /// Adds the effects that counts and commands plainly show: they are there, whatever else there may be.
 void add_what_counts_show(const Model& model, const Fit& none, const Thresholds& thresholds, Diagnosis& d);
 
+/// Adds what is not sure enough to be named, but more likely than not beside what is: where nothing is named, the
+/// likeliest single effect that is too small; else the first cause with the likeliest effect more.
+void add_doubtful(const std::vector<Fit>& doubtful, const Fit& none, Diagnosis& d);
+
 }  // namespace umbsim::gap

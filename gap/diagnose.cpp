@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <boost/math/distributions/chi_squared.hpp>
 
@@ -145,9 +146,19 @@ void put_first(const Fit& fit, double leftover, Diagnosis& d) {
   d.causes.insert(d.causes.begin(), Cause{fit.name(), fit, score, 0});
 }
 
+// What follows from rolling, counting and driving alone, without a contact that slips, scrubs or climbs.
+bool only_rolls(const Family& f) {
+  static const std::set<std::string> effects{
+      "wheel_radius_scale", "wheel_radius_difference", "wheelbase",       "tyre_compliance", "wear",
+      "encoder_sampling",   "encoder_missed_counts",   "encoder_latency", "motor_response"};
+  return effects.count(f.effect) > 0;
+}
+
 double known_share(const Fit& fit, const Thresholds& t) {
   const auto toe = [](const Family& f) { return f.effect == "wheel_misalignment"; };
-  return std::any_of(fit.families.begin(), fit.families.end(), toe) ? t.known_share_of_toe : t.known_share;
+  if (std::any_of(fit.families.begin(), fit.families.end(), toe)) return t.known_share_of_toe;
+  const bool rolls = std::all_of(fit.families.begin(), fit.families.end(), only_rolls);
+  return rolls ? t.known_share_of_rolling : t.known_share;
 }
 
 }  // namespace
@@ -168,9 +179,9 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   Diagnosis d;
   say("signatures of the effects");
   const Screen screen(model, excluded);
-  std::vector<Fit> fits = search(model, screen, t, say);
-  const Fit none = fits.front();
-  fits = worth_their_cost(model, std::move(fits), t);
+  Found found = search(model, screen, t, say);
+  const Fit none = found.fits.front();
+  std::vector<Fit> fits = worth_their_cost(model, std::move(found.fits), t);
   d.causes = ranked(fits, t);
   say("held-out runs");
   prefer_what_predicts(model, d.causes, t);
@@ -253,6 +264,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     if (worth_knowing) add_what_explains(best, none, d);
     add_what_counts_show(model, none, t, d);
   }
+  add_doubtful(found.doubtful, none, d);
   d.segments = segment_scores(model, none);
   if (d.segments.size() > 12) d.segments.resize(12);
   if (d.detected && !best.families.empty()) {

@@ -166,6 +166,7 @@ Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start
     rounds *= 2;
   else if (any([](const Family& f) { return !f.from_zero; }))
     rounds += 1;
+  const bool from_zero = !any([](const Family& f) { return !f.from_zero; });
   for (int round = 0; round < rounds; ++round) {
     linearise(fit);
     const Evidence e = evidence(fit.grams, runs, first_columns(sd.size()), sd, shifted(sd, fit.p));
@@ -188,11 +189,16 @@ Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start
     if (small) break;
     Eigen::VectorXd next = e.mean.tail(m);
     double change = 0;
+    double wanted = 0;  // the same without bounds
     for (Eigen::Index i = 0; i < m; ++i) {
+      const double sd_left = std::sqrt(fit.covariance(i, i) + 1e-300);
+      wanted = std::max(wanted, std::abs(next[i] - fit.p[i]) / sd_left);
       next[i] = std::clamp(next[i], free[std::size_t(i)].min, free[std::size_t(i)].max);
-      change = std::max(change, std::abs(next[i] - fit.p[i]) / std::sqrt(fit.covariance(i, i) + 1e-300));
+      change = std::max(change, std::abs(next[i] - fit.p[i]) / sd_left);
     }
-    best.linear = change < 1;
+    // At a bound the linear model may have its optimum far beyond it: that is no evidence, except for numbers that the
+    // prior itself cuts at zero.
+    best.linear = (from_zero ? change : wanted) < 1;
     if (change < 0.1) break;
     fit.p = next;
   }

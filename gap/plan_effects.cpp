@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gap/drivable.h"
+
 namespace umbsim::gap {
 namespace {
 
@@ -64,9 +66,9 @@ OnLeg on_leg(const Model& model, int wanted_leg, double share) {
 std::vector<PlannedFamily> planned_families(const Model& model, const std::set<std::string>& wanted) {
   const Recording& recording = model.recording();
   std::vector<PlannedFamily> all;
-  for (Family& f : plain_families(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution)) {
-    all.push_back(planned(std::move(f)));
-  }
+  std::vector<Family> plain = plain_families(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution);
+  std::erase_if(plain, [&](const Family& f) { return wanted.count(f.effect) == 0; });
+  for (Family& f : drivable(model, std::move(plain))) all.push_back(planned(std::move(f)));
   const Pose2 right_wheel{0, -recording.robot.wheelbase_m / 2, 0};
   const Pose2 cable = on_leg(model, 1, 0.5).X_WB * right_wheel;
   // Grip is needed where wheels speed up, stop and turn, not in between.

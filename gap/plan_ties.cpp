@@ -16,11 +16,9 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
 }
 
 // Families that need no place, and every bending one as it was fitted.
-std::vector<PlannedFamily> families_of(const Model& model, const Diagnosis& d, const std::set<std::string>& excluded) {
+std::vector<PlannedFamily> families_of(const Model& model, const Diagnosis& d) {
   std::set<std::string> wanted;
-  for (const EffectInfo& info : catalogue()) {
-    if (excluded.count(info.name) == 0) wanted.insert(info.name);
-  }
+  for (const EffectInfo& info : catalogue()) wanted.insert(info.name);
   std::vector<PlannedFamily> families = planned_families(model, wanted);
   std::erase_if(families, [](const PlannedFamily& p) { return p.family.search_cost > 0; });
   for (const Cause& c : d.causes) {
@@ -87,7 +85,7 @@ Ties find_ties(const Model& model, const Diagnosis& d, const std::set<std::strin
   Ties ties;
   const Cause& first = d.causes.front();
   if (first.fit.families.empty()) return ties;
-  ties.families = families_of(model, d, excluded);
+  ties.families = families_of(model, d);
   const Signatures signatures(model, ties.families, model.all_runs(), 0, kScatter);
   const auto grams = model.grams(model.residuals(model.predict({{}}).front()), signatures.columns);
   const Eigen::MatrixXd A = information(grams, model.all_runs(), signatures, model.nuisance_sd());
@@ -117,6 +115,7 @@ Ties find_ties(const Model& model, const Diagnosis& d, const std::set<std::strin
       const Race race = race_among({truth, rival}, left, signatures.all, t, {0, kDraws, 1});
       if ((race.mistaken(0, 1) + race.mistaken(1, 0)) / 2 <= alike) continue;
       group.push_back(info.name);
+      if (excluded.count(info.name) > 0) continue;
       add(info.name, rival);
       // The other way round counts for the set: the truth is this one, and the first is named.
       if (own.size() == 1 && race.mistaken(1, 0) > alike) ties.could_be.push_back(info.name);

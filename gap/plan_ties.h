@@ -17,11 +17,12 @@ struct Ties {
   std::vector<FixedTruth> sizes;       ///< of each, as fitted or as near to the first as it comes
   std::vector<PlannedFamily> families; ///< that `sizes` refer to, in the order of their signatures
   Eigen::MatrixXd information;         ///< of their signatures in the recorded runs
-  std::vector<std::vector<std::string>> groups;  ///< for `indistinguishable`
+  std::vector<std::vector<std::string>> groups;  ///< for `indistinguishable`, excluded effects as well
   std::vector<std::string> could_be;   ///< effects that would often be named as the first cause, for `set`
 };
 
-/// `alike`: mean probability of a mistake above which two effects are not told apart.
+/// `alike`: mean probability of a mistake above which two effects are not told apart. An effect that was excluded is
+/// listed in the groups, for then the exclusion decides and not the runs; it is no member and not in the set.
 Ties find_ties(const Model& model, const Diagnosis& diagnosis, const std::set<std::string>& excluded,
                const Thresholds& thresholds, double alike = 0.1);
 

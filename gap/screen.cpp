@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "core/error.h"
+#include "gap/drivable.h"
 #include "gap/search.h"
 
 namespace umbsim::gap {
@@ -79,6 +81,16 @@ Screen::Screen(const Model& model, const std::set<std::string>& excluded) : mode
   for (const Family& f : plain_families(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution)) {
     if (excluded.count(f.effect) == 0 && shown_by_habits(f.effect, model.habits())) families_.push_back(f);
   }
+  try {
+    simulate_steps();
+  } catch (const std::runtime_error&) {  // RunError or InputError: not every family suits every robot
+    families_ = drivable(model, std::move(families_));
+    simulate_steps();
+  }
+}
+
+void Screen::simulate_steps() {
+  range_.clear();
   std::vector<std::vector<Effect>> stepped;
   std::vector<double> steps;
   std::vector<double> sd;
@@ -98,7 +110,7 @@ Screen::Screen(const Model& model, const std::set<std::string>& excluded) : mode
       sd.push_back(f.parameters[i].prior_sd);
     }
   }
-  columns_ = model.columns(model.none().predicted, model.predict(stepped), steps);
+  columns_ = model_.columns(model_.none().predicted, model_.predict(stepped), steps);
   prior_sd_ = Eigen::Map<Eigen::VectorXd>(sd.data(), Eigen::Index(sd.size()));
 }
 
@@ -146,7 +158,10 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
     if (k.lost_m > 0) {
       // Closed form of a cable that costs a wheel this distance.
       const double height_m = std::clamp(0.5 * std::pow(3 * std::sqrt(R) * k.lost_m, 2.0 / 3), 0.001, 0.02);
-      offer(bump_family(k.x_m, k.y_m, k.heading_rad), {vector_of({height_m, 0})}, {0.002, 0.02}, k.gain);
+      std::vector<double> heights;
+      for (const double share : {0.5, 0.7, 1.0, 1.4, 2.0}) heights.push_back(std::clamp(share * height_m, 0.001, 0.02));
+      offer(bump_family(k.x_m, k.y_m, k.heading_rad), all_of({heights, {-0.03, -0.015, 0, 0.015, 0.03}}), {0.002, 0.02},
+            k.gain);
     }
     // A few per cent of length, or of friction, decide how far a wheel gets that pulls against the other in a corner.
     offer(lift_family(k.x_m, k.y_m), all_of({geometric(0.012, 0.25, 1.12), {0}, {0}}), {0.005, 0.02, 0.02}, k.gain - 1);

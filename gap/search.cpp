@@ -25,6 +25,7 @@ constexpr double kRivals = 0.8;    // share of an effect's gain that the screen 
 constexpr double kShown = 50;      // log evidence of a demand in commands
 constexpr double kFarBehind = 20;  // log evidence
 constexpr double kHint = 0.02;     // of what explains all, below which no place or moment is looked at
+constexpr double kDoubtful = 0.3;  // of what a further effect must bring
 constexpr int kHalvings = 4;
 constexpr int kMostTries = 110;  // simulations of all runs in the search for a place
 
@@ -83,7 +84,7 @@ class Search {
   Search(const Model& model, const Screen& screen, const Thresholds& thresholds)
       : model_(model), screen_(screen), thresholds_(thresholds), none_(model.none()), fits_{none_} {}
 
-  std::vector<Fit> run(const Say& say) {
+  Found run(const Say& say) {
     say("fitting single effects");
     fit_singles();
     std::vector<Fit> frontier(fits_.begin() + 1, fits_.end());
@@ -96,13 +97,13 @@ class Search {
       if (frontier.empty()) break;
       swap_one(*std::max_element(frontier.begin(), frontier.end(), less_evidence), frontier);
     }
-    return std::move(fits_);
+    return {std::move(fits_), std::move(doubtful_)};
   }
 
  private:
   static bool less_evidence(const Fit& a, const Fit& b) { return a.log_evidence < b.log_evidence; }
 
-  std::optional<Fit> tried(const Fit& base, const Screen::Candidate& c) const {
+  std::optional<Fit> tried(const Fit& base, const Screen::Candidate& c) {
     std::vector<Family> families = base.families;
     families.push_back(c.family);
     try {
@@ -111,7 +112,9 @@ class Search {
       Fit fit = model_.fit(families, start, base.families.empty() ? kRounds : kFewerRounds);
       fit.size = displacement_m(fit.predicted.tracks, base.predicted.tracks) / model_.noise_floor_m();
       fit.seen = std::sqrt(seen_between(model_, base, fit) / model_.rows());
-      if (plausible(base, fit)) return fit;
+      if (contradicted(base, fit)) return std::nullopt;
+      if (large_enough(base, fit)) return fit;
+      keep_doubtful(base, std::move(fit));
     } catch (const RunError&) {
       // A robot that cannot be simulated is no explanation,
     } catch (const InputError&) {
@@ -120,9 +123,19 @@ class Search {
     return std::nullopt;
   }
 
-  bool plausible(const Fit& base, const Fit& fit) const {
-    // What the counts speak against may not explain the tracks.
-    if (model_.counts_misfit(fit.predicted) > model_.counts_misfit(base.predicted) + kContradicted) return false;
+  void keep_doubtful(const Fit& base, Fit fit) {
+    const bool alone = base.families.empty();
+    if (alone || pays(model_, base, fit, addition_needed(model_, base, none_, thresholds_), kDoubtful)) {
+      doubtful_.push_back(std::move(fit));
+    }
+  }
+
+  // What the counts speak against may not explain the tracks.
+  bool contradicted(const Fit& base, const Fit& fit) const {
+    return model_.counts_misfit(fit.predicted) > model_.counts_misfit(base.predicted) + kContradicted;
+  }
+
+  bool large_enough(const Fit& base, const Fit& fit) const {
     // What moves counts against commands, and not the robot, is seen there.
     const double smallest = base.families.empty() ? thresholds_.smallest : thresholds_.smallest_addition;
     const bool small = fit.size < smallest && fit.seen < thresholds_.least_seen;
@@ -186,7 +199,10 @@ class Search {
       auto fit = tried(base, c);
       if (!fit) continue;
       ++fitted;
-      if (!pays(model_, base, *fit, needed)) continue;
+      if (!pays(model_, base, *fit, needed)) {
+        keep_doubtful(base, std::move(*fit));
+        continue;
+      }
       fits_.push_back(*fit);
       paying.push_back(std::move(*fit));
     }
@@ -235,11 +251,12 @@ class Search {
   const Thresholds& thresholds_;
   const Fit none_;
   std::vector<Fit> fits_;
+  std::vector<Fit> doubtful_;
 };
 
 }  // namespace
 
-std::vector<Fit> search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say) {
+Found search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say) {
   return Search(model, screen, thresholds).run(say);
 }
 

@@ -27,6 +27,7 @@ class Screen {
   const std::vector<Family>& families() const { return families_; }
 
  private:
+  void simulate_steps();
   void try_frictions(const Fit& fit, Candidate& c) const;
   void offer_local(const Fit& fit, std::vector<Candidate>& candidates) const;
 
@@ -38,7 +39,14 @@ class Screen {
   Eigen::VectorXd prior_sd_;
 };
 
-/// Fits of no effect, of single effects, and of the combinations that pay, all in the simulator.
-std::vector<Fit> search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say);
+/// What the search found, all fitted in the simulator.
+struct Found {
+  std::vector<Fit> fits;      ///< of no effect, of single effects, and of the combinations that pay
+  /// Of effects too small to be told from a difference of engines, and of combinations whose last effect brings less
+  /// than it must, but not much less.
+  std::vector<Fit> doubtful;
+};
+
+Found search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say);
 
 }  // namespace umbsim::gap

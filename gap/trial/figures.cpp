@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "gap/trial/severity.h"
+
 namespace umbsim {
 namespace {
 
@@ -29,6 +31,13 @@ constexpr double kMaxParameterError = 0.15;
 constexpr double kMinCoverage = 0.88, kMaxCoverage = 0.99;
 constexpr double kMinClosure = 0.9;
 constexpr double kMaxUncachedTime_s = 300;
+
+// Every effect alone would be among the figures; a stranger's, of unknown severity, is taken to be.
+bool all_detectable(const Answer& answer) {
+  return !answer.undetectable_expected && std::all_of(answer.effects.begin(), answer.effects.end(), [](const auto& e) {
+    return e.second.severity.value_or(kLeastSeverity) >= kLeastSeverity;
+  });
+}
 
 bool is(const Verdict& v, Tier tier) { return v.answer.tier == tier; }
 
@@ -54,9 +63,12 @@ const std::vector<ShareLine>& share_lines() {
       {"location_right", "leg, turn, place or run right",
        [](const Verdict& v) { return single_and_detectable(v) && v.location_right.has_value(); },
        [](const Verdict& v) { return *v.location_right; }, 0.80},
-      {"pair_both", "two effects: both in one member of the set",
-       [](const Verdict& v) { return is(v, Tier::pairs) && !v.answer.undetectable_expected; },
+      {"pair_both", "two effects, both to be seen: both in one member of the set",
+       [](const Verdict& v) { return is(v, Tier::pairs) && all_detectable(v.answer); },
        [](const Verdict& v) { return v.both_in_set; }, 0.70},
+      {"pair_both_all", "  the same where at least one can be seen",
+       [](const Verdict& v) { return is(v, Tier::pairs) && !v.answer.undetectable_expected; },
+       [](const Verdict& v) { return v.both_in_set; }, kNoBar},
       {"pair_one", "two effects: at least one in the set",
        [](const Verdict& v) { return is(v, Tier::pairs) && !v.answer.undetectable_expected; },
        [](const Verdict& v) { return v.one_in_set; }, 0.95},

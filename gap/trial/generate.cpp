@@ -90,7 +90,7 @@ DrivenCase drive_case(const TrialPlan& plan, const TrialCase& c, const Platform&
   for (int attempt = 0;; ++attempt) {
     try {
       return drive_case(plan, c, platform, scales, simulator, attempt);
-    } catch (const RunError&) {
+    } catch (const std::runtime_error&) {  // RunError, or InputError: a robot that tips over
       if (attempt + 1 == kAttempts) throw;
     }
   }

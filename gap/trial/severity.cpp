@@ -232,7 +232,7 @@ double SeverityScale::severity(const Effect& effect, Signal signal) const {
     const SignalSize change = size_of(track, &nominal_[std::size_t(signal)]);
     const SignalSize& floor = noise(signal);
     return std::max(ratio(change.whole, floor.whole), ratio(change.steps, floor.steps));
-  } catch (const RunError&) {
+  } catch (const std::runtime_error&) {  // RunError, or InputError: it tips over, or is driven out of all bounds
     return std::numeric_limits<double>::infinity();
   }
 }

@@ -113,7 +113,11 @@ void judge_causes(const EffectNames& truth, Verdict& v) {
   const EffectNames wanted = v.answer.tier == Tier::outside ? EffectNames{"unknown"} : truth;
   v.right = first.effects == wanted;
   v.right_or_tied = v.right || tied(d, truth, first.effects);
-  for (const EffectNames& group : d.indistinguishable) {
+  for (EffectNames group : d.indistinguishable) {
+    // What the diagnosis had to do without is no rival.
+    for (const std::string& effect : v.answer.excluded) {
+      if (truth.count(effect) == 0) group.erase(effect);
+    }
     for (const std::string& effect : truth) v.distinguishable &= !(group.count(effect) && group.size() > 1);
   }
   for (const EffectNames& member : d.set) {

@@ -102,6 +102,23 @@ TEST(Score, UndetectableCasesAreListedAndNotCounted) {
   EXPECT_EQ(by_tier(score.verdicts).at("single").cases, 2);
 }
 
+TEST(Score, APairOfWhichOneCannotBeSeenIsNotAskedForBoth) {
+  HandMade trial;
+  const auto pair = [](const std::string& bump, const std::string& wheelbase) {
+    return R"({"effects":{"bump":{},"wheelbase":{}},"severities":{"bump":{"severity":)" + bump +
+           R"(},"wheelbase":{"severity":)" + wheelbase + "}}}";
+  };
+  const std::string half = diagnosis(R"("bump":{})", 0.9, R"("bump")");
+  trial.add("p1", pair("3", "0.5"), diagnosis(R"("bump":{},"wheelbase":{})", 0.9, R"("bump+wheelbase")"));
+  trial.add("p2", pair("3", "2"), half);
+  trial.add("p3", pair("3", "0.49"), half);
+  const TrialScore score = trial.score();
+  EXPECT_EQ(figure(score, "pair_both").hits, 1);
+  EXPECT_EQ(figure(score, "pair_both").cases, 2);
+  EXPECT_EQ(figure(score, "pair_both_all").cases, 3);
+  EXPECT_EQ(figure(score, "pair_one").hits, 3);
+}
+
 TEST(Score, SeverityCalibrationAndConfusion) {
   HandMade trial;
   for (int i = 0; i < 4; ++i) {

@@ -49,6 +49,16 @@ TEST(Verdict, ATieThatTheDiagnosisItselfPredictsIsForgivenButNotCountedAsRight) 
   EXPECT_FALSE(judge("a", kWheelbase, d, 1).right_or_tied);
 }
 
+TEST(Verdict, WhatTheDiagnosisHadToDoWithoutIsNoRival) {
+  Answer answer = kWheelbase;
+  answer.excluded = {"contact_patch"};
+  Diagnosis d = names({"wheelbase"}, {{"wheelbase"}});
+  d.indistinguishable = {{"wheelbase", "contact_patch"}};
+  EXPECT_TRUE(judge("a", answer, d, 1).distinguishable);
+  d.indistinguishable = {{"wheelbase", "contact_patch", "fast_turning"}};
+  EXPECT_FALSE(judge("a", answer, d, 1).distinguishable);
+}
+
 TEST(Verdict, NoEffectIsRightAsNone) {
   EXPECT_TRUE(judge("a", kNone, names({"none"}, {{"none"}}), 1).right);
   EXPECT_FALSE(judge("a", kNone, names({"none"}, {{"none"}}), 1).detected);

@@ -1,0 +1,63 @@
+#include "gap/answer_set.h"
+
+#include <gmock/gmock.h>
+
+namespace umbsim::gap {
+namespace {
+
+using testing::ElementsAre;
+
+Fit fit_of(const std::vector<std::string>& effects, double log_evidence) {
+  Fit fit;
+  for (const std::string& effect : effects) {
+    for (Family& f : plain_families(0.02, 2000)) {
+      if (f.effect != effect) continue;
+      fit.families.push_back(std::move(f));
+      break;
+    }
+  }
+  std::size_t numbers = 0;
+  for (const Family& f : fit.families) numbers += f.parameters.size();
+  fit.p = Eigen::VectorXd::Zero(Eigen::Index(numbers));
+  fit.log_evidence = log_evidence;
+  return fit;
+}
+
+Diagnosis named(const Fit& fit) {
+  Diagnosis d;
+  const std::string name = fit.families.empty() ? "none" : fit.name();
+  d.causes.push_back({name, fit, 0, 0});
+  d.set = {name};
+  return d;
+}
+
+TEST(AnswerSet, WhatIsTooSmallStandsBesideNone) {
+  const Fit none = fit_of({}, 100);
+  Diagnosis d = named(none);
+  add_doubtful({fit_of({"wear"}, 102), fit_of({"wheelbase", "wear"}, 140)}, none, d);
+  EXPECT_THAT(d.set, ElementsAre("none")) << "little evidence, and two at once";
+  add_doubtful({fit_of({"wear"}, 104), fit_of({"wheelbase"}, 106)}, none, d);
+  EXPECT_THAT(d.set, ElementsAre("none", "wheelbase"));
+}
+
+TEST(AnswerSet, OneEffectMoreStandsBesideTheFirstCause) {
+  const Fit none = fit_of({}, 100);
+  Diagnosis d = named(fit_of({"wheelbase"}, 200));
+  add_doubtful({fit_of({"wear"}, 150), fit_of({"wear", "wheel_radius_scale"}, 220), fit_of({"wear", "wheelbase"}, 202)},
+               none, d);
+  EXPECT_THAT(d.set, ElementsAre("wheelbase")) << "without the first, or with hardly more evidence";
+  add_doubtful({fit_of({"wheelbase", "wear"}, 208), fit_of({"wheelbase", "backlash"}, 206)}, none, d);
+  EXPECT_THAT(d.set, ElementsAre("wheelbase", "wear+wheelbase"));
+}
+
+TEST(AnswerSet, NothingStandsBesideUnknownForBeingDoubtful) {
+  const Fit none = fit_of({}, 100);
+  Diagnosis d = named(none);
+  d.causes.front().name = "unknown";
+  d.set = {"unknown"};
+  add_doubtful({fit_of({"wheelbase"}, 150)}, none, d);
+  EXPECT_THAT(d.set, ElementsAre("unknown"));
+}
+
+}  // namespace
+}  // namespace umbsim::gap
