@@ -14,12 +14,26 @@ namespace {
 constexpr std::size_t kStride = 2;                   // truth samples between two candidates
 const Eigen::Vector3d kKickSd(0.02, 0.02, 0.05);     // prior size: metres, metres, radians
 constexpr double kLostSd_m = 0.003;
-constexpr double kSpot_m = 0.03;  
+constexpr double kWheelbase_m = 0.36;                // of a robot to which these lengths belong; others in proportion:
+constexpr double kSpot_m = 0.03;
 constexpr double kReach_m = 0.05;                    // half length of what lies across the path
+constexpr double kApart_m = 0.3;                     // between places that are told apart
 
 // Wheel positions at each candidate of a run.
 Pose2 wheel_place(const Pose2& X_WB, int wheel, double wheelbase_m) {
   return X_WB * Pose2{0, (wheel == 0 ? 0.5 : -0.5) * wheelbase_m, 0};
+}
+
+// Whether the robot goes straight, at each sample of a run's truth.
+std::vector<bool> goes_straight(const Model& model, std::size_t r) {
+  std::vector<bool> straight;
+  for (const TruthSample& sample : model.recording().runs[r].truth) {
+    const auto& all = model.stretches(r);
+    straight.push_back(std::any_of(all.begin(), all.end(), [&](const Stretch& s) {
+      return s.kind == Stretch::Kind::leg && s.start_s <= sample.time_s && sample.time_s <= s.end_s;
+    }));
+  }
+  return straight;
 }
 
 }  // namespace
@@ -50,6 +64,8 @@ Kicks find_kicks(const Model& model, const Fit& fit) {
 
   // Where the wheels were, once and for all.
   std::vector<std::array<std::vector<Pose2>, 2>> wheels(runs);
+  std::vector<std::vector<bool>> straight;
+  for (std::size_t r = 0; r < runs; ++r) straight.push_back(goes_straight(model, r));
   for (std::size_t r = 0; r < runs; ++r) {
     for (int w = 0; w < 2; ++w) {
       for (std::size_t k = 0; k < recording.runs[r].truth.size(); ++k) {
@@ -62,6 +78,7 @@ Kicks find_kicks(const Model& model, const Fit& fit) {
   }
   // Candidates for places: wheel tracks of the first run of every condition and direction, each spot once.
   const double b_m = recording.robot.wheelbase_m;
+  const double scale = std::clamp(b_m / kWheelbase_m, 0.3, 2.0);
   std::vector<PlaceKick> places;
   std::vector<std::string> seen;
   std::set<std::pair<long, long>> spots;
@@ -72,7 +89,7 @@ Kicks find_kicks(const Model& model, const Fit& fit) {
     for (std::size_t k = 1; k < model.filter(r).samples(); k += kStride) {
       for (int w = 0; w < 2; ++w) {
         const Pose2& at = wheels[r][std::size_t(w)][k];
-        if (!spots.insert({std::lround(at.x_m / kSpot_m), std::lround(at.y_m / kSpot_m)}).second) continue;
+        if (!spots.insert({std::lround(at.x_m / (scale * kSpot_m)), std::lround(at.y_m / (scale * kSpot_m))}).second) continue;
         places.push_back({at.x_m, at.y_m, at.theta_rad, w, 0, 0, 0});
       }
     }
@@ -81,19 +98,25 @@ Kicks find_kicks(const Model& model, const Fit& fit) {
     PlaceKick& place = places[c];
     double zy = 0;
     double zz = 0;
+    double nearest_leg = 1e300;
     for (std::size_t r = 0; r < runs; ++r) {
       for (int w = 0; w < 2; ++w) {
         // Nearest approach of each pass, once each.
-        constexpr double kReach2 = kReach_m * kReach_m;
-        double nearest = kReach2;
+        const double reach2 = scale * kReach_m * scale * kReach_m;
+        double nearest = reach2;
         std::size_t at = 0;
         const auto take = [&] {
-          if (nearest >= kReach2) return;
+          if (nearest >= reach2) return;
           const Eigen::Vector3d lost(-0.5, 0, (w == 0 ? 1 : -1) / b_m);
           zy += lost.dot(all[r].with_column[at]);
           zz += lost.dot(all[r].with_itself[at] * lost);
           ++place.passes;
-          nearest = kReach2;
+          // What lies across the path lies across that of a leg, where there is one: in a corner headings are many.
+          if (straight[r][at] && nearest < nearest_leg) {
+            nearest_leg = nearest;
+            place.heading_rad = wheels[r][std::size_t(w)][at].theta_rad;
+          }
+          nearest = reach2;
         };
         for (std::size_t k = 1; k < model.filter(r).samples(); ++k) {
           const Pose2& p = wheels[r][std::size_t(w)][k];
@@ -103,7 +126,7 @@ Kicks find_kicks(const Model& model, const Fit& fit) {
           if (d < nearest) {
             nearest = d;
             at = k;
-          } else if (d > kReach2) {
+          } else if (d > reach2) {
             take();
           }
         }
@@ -117,7 +140,7 @@ Kicks find_kicks(const Model& model, const Fit& fit) {
   std::sort(places.begin(), places.end(), [](const PlaceKick& a, const PlaceKick& b) { return a.gain > b.gain; });
   for (const PlaceKick& p : places) {
     const bool near = std::any_of(kicks.places.begin(), kicks.places.end(), [&](const PlaceKick& q) {
-      return std::hypot(p.x_m - q.x_m, p.y_m - q.y_m) < 0.3;
+      return std::hypot(p.x_m - q.x_m, p.y_m - q.y_m) < scale * kApart_m;
     });
     if (!near) kicks.places.push_back(p);
     if (kicks.places.size() == 5) break;

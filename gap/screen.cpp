@@ -175,7 +175,7 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
   const auto [leg, seconds] = leg_at(model_.stretches(k.run), run.truth[k.sample].time_s);
   if (leg == 0) return;
   offer(push_family(run.id, leg, std::max(0.0, std::round(seconds * 10 - 1) / 10)),
-        all_of({{-150, -80, -45, -25, -14, 14, 25, 45, 80, 150}, {0}}), {8, 0.1}, k.gain);
+        all_of({{-150, -80, -45, -25, -14, -6, -2.5, 2.5, 6, 14, 25, 45, 80, 150}, {0}}), {8, 0.1}, k.gain);
 }
 
 std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {

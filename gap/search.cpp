@@ -26,6 +26,7 @@ constexpr double kShown = 50;      // log evidence of a demand in commands
 constexpr double kFarBehind = 20;  // log evidence
 constexpr double kHint = 0.02;     // of what explains all, below which no place or moment is looked at
 constexpr double kDoubtful = 0.3;  // of what a further effect must bring
+constexpr double kFirstStep = 0.4;  // of a number, where a search begins
 constexpr int kHalvings = 4;
 constexpr int kMostTries = 110;  // simulations of all runs in the search for a place
 
@@ -64,6 +65,9 @@ double keep_best_start(const Model& model, const Fit& base, Screen::Candidate& c
 Eigen::VectorXd searched_start(const Model& model, const Fit& base, Screen::Candidate c) {
   keep_best_start(model, base, c);
   if (c.reach.size() == 0) return c.start;
+  for (Eigen::Index i = 0; i < c.start.size(); ++i) {
+    if (c.start[i] != 0) c.reach[i] = std::min(c.reach[i], kFirstStep * std::abs(c.start[i]));
+  }
   Eigen::VectorXd min(c.start.size());
   Eigen::VectorXd max(c.start.size());
   for (Eigen::Index i = 0; i < c.start.size(); ++i) {

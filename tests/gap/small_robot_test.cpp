@@ -1,0 +1,79 @@
+// Robots that are nothing like a LabMate: what a trial of an effect does to them must not end the diagnosis.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "gap/check.h"
+#include "gap/clock.h"
+#include "gap/diagnosis_json.h"
+#include "gap/drivable.h"
+#include "tests/gap/patient.h"
+
+namespace umbsim::gap {
+namespace {
+
+using testing::effect;
+using testing::Patient;
+
+Recording optiodom_squares(const std::vector<Effect>& hidden) {
+  Scenario s = testing::squares(1, 2);
+  s.robot.urdf = "optiodom.urdf";
+  s.course.linear_speed_mps = 0.2;
+  testing::add_noise(s, 5);
+  s.effects = hidden;
+  return run_experiment(s, 0).recording;
+}
+
+// Mass (3.3 kg) times what the centre of mass lies ahead of the axle is all that holds it against a load behind.
+TEST(SmallRobot, ALoadThatTipsItIsSteppedLess) {
+  const Patient p(optiodom_squares({effect("wheelbase", {{"relative", 0.01}})}));
+  std::vector<Family> loads = plain_families(0.02, 2000);
+  std::erase_if(loads, [](const Family& f) { return f.effect != "load_shift"; });
+  ASSERT_EQ(loads.size(), 1u);
+  const Family& whole = loads.front();
+  Eigen::VectorXd tips = Eigen::VectorXd::Zero(Eigen::Index(whole.parameters.size()));
+  tips[1] = whole.parameters[1].step;
+  EXPECT_THROW(p.model.predict({effects_of(whole, tips)}), InputError) << "else this shows nothing";
+  const std::vector<Family> kept = drivable(p.model, loads);
+  ASSERT_EQ(kept.size(), 1u);
+  for (std::size_t i = 0; i < kept.front().parameters.size(); ++i) {
+    Eigen::VectorXd stepped = Eigen::VectorXd::Zero(Eigen::Index(kept.front().parameters.size()));
+    stepped[Eigen::Index(i)] = kept.front().parameters[i].step;
+    std::cout << kept.front().parameters[i].name << " " << stepped[Eigen::Index(i)] << "\n";
+    EXPECT_NO_THROW(p.model.predict({effects_of(kept.front(), stepped)}));
+  }
+  const Diagnosis d = p.diagnosed();
+  EXPECT_EQ(d.causes.front().name, "wheelbase");
+  EXPECT_NEAR(d.causes.front().fit.p[0], 0.01, 0.001);
+}
+
+TEST(SmallRobot, WhatNoStepDrivesIsLeftOut) {
+  const Patient p(optiodom_squares({}));
+  Family heavy;
+  for (const Family& f : plain_families(0.02, 2000)) {
+    if (f.effect == "load_shift") heavy = f;
+  }
+  ASSERT_FALSE(heavy.parameters.empty());
+  heavy.parameters[1].step = 1000;
+  heavy.parameters[1].min = -1e6;
+  heavy.parameters[1].max = 1e6;
+  EXPECT_TRUE(drivable(p.model, {heavy}).empty());
+}
+
+// A real robot of that kind, measured by motion capture.
+TEST(SmallRobot, ARealOneIsDiagnosed) {
+  const std::filesystem::path folder = std::filesystem::path(UMBSIM_SHARED_DIR) / "recordings/optiodom-square-1.7m";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  const Recording recording = read_recording(folder);
+  check_recording(recording, folder.string());
+  std::vector<std::string> limits;
+  const Patient p(followed_through(recording, limits));
+  const Diagnosis d = p.diagnosed();
+  std::cout << d.causes.front().name << ", closure " << d.closure.fraction << "\n";
+  EXPECT_NE(d.causes.front().name.find("wheelbase"), std::string::npos) << d.causes.front().name;
+  EXPECT_GT(d.closure.fraction, 0.5);
+}
+
+}  // namespace
+}  // namespace umbsim::gap
