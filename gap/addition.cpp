@@ -113,8 +113,9 @@ Needed addition_needed(const Model& model, const Fit& base, const Fit& none, con
 bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& needed, double extra) {
   const double gain = fit.log_evidence - base.log_evidence;
   if (gain < extra * lookalike_share(base, fit) * needed.gained) return false;
-  // What leaves most of the misfit as it was mends an error of the model, as any effect could.
-  const bool leaves_most = excess(model, fit) > kMost * needed.left;
+  // What leaves most of the misfit as it was mends an error of the model, as any effect could. The model of what rolls
+  // and counts has none: there it is noise that is not as it was thought to be.
+  const bool leaves_most = !fit.only_rolls() && excess(model, fit) > kMost * needed.left;
   const bool dear = leaves_most || adds_local(base, fit);
   if (gain >= extra * (dear ? needed.local : needed.everywhere)) return true;
   const double counts = (model.counts_misfit(base.predicted) - model.counts_misfit(fit.predicted)) / 2;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include <boost/math/distributions/chi_squared.hpp>
 
@@ -146,19 +145,12 @@ void put_first(const Fit& fit, double leftover, Diagnosis& d) {
   d.causes.insert(d.causes.begin(), Cause{fit.name(), fit, score, 0});
 }
 
-// What follows from rolling, counting and driving alone, without a contact that slips, scrubs or climbs.
-bool only_rolls(const Family& f) {
-  static const std::set<std::string> effects{
-      "wheel_radius_scale", "wheel_radius_difference", "wheelbase",       "tyre_compliance", "wear",
-      "encoder_sampling",   "encoder_missed_counts",   "encoder_latency", "motor_response"};
-  return effects.count(f.effect) > 0;
-}
-
-double known_share(const Fit& fit, const Thresholds& t) {
+// An explanation beside which `left` could be explained by something of no particular cause, is it one?
+bool explains_little(const Fit& fit, double explained, double left, const Thresholds& t) {
   const auto toe = [](const Family& f) { return f.effect == "wheel_misalignment"; };
-  if (std::any_of(fit.families.begin(), fit.families.end(), toe)) return t.known_share_of_toe;
-  const bool rolls = std::all_of(fit.families.begin(), fit.families.end(), only_rolls);
-  return rolls ? t.known_share_of_rolling : t.known_share;
+  const double share = std::any_of(fit.families.begin(), fit.families.end(), toe) ? t.known_share_of_toe : t.known_share;
+  if (explained < share * (explained + left)) return true;
+  return fit.only_rolls() && left > std::max(t.left_by_rolling, (1 - t.known_share_of_rolling) * (explained + left));
 }
 
 }  // namespace
@@ -212,7 +204,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     d.closure = held_out_closure(model, best);
     const bool much = explained > t.most_left * leftover;
     const bool foretells = !d.closure.known || d.closure.ci95[1] > t.least_closure || much;
-    const bool little = explained < known_share(best, t) * (explained + left_generic);
+    const bool little = explains_little(best, explained, left_generic, t);
     bool unknown = d.unexplained && (!foretells || little || lack > t.misfit_left * lack_none);
     if (unknown && excluded.count("uneven_floor") == 0) {
       if (const std::optional<Fit> uneven = with_uneven_floor(model, none, best, lack, t)) {

@@ -27,7 +27,8 @@ struct Thresholds {
   double tie = 6;           ///< log evidence within which two explanations are not told apart
   double known_share = 0.93; ///< of the explainable evidence that named effects must explain, or the cause is unknown
   double known_share_of_toe = 0.7; ///< the same of toed wheels, whose scrub depends on tyres that nobody knows
-  double known_share_of_rolling = 0.99; ///< the same of what follows from rolling and counting, whatever the contact
+  double known_share_of_rolling = 0.99; ///< the same of what follows from rolling and counting, whatever the contact,
+  double left_by_rolling = 12; ///< where this much log evidence is left
   double least_closure = 0.3; ///< that the held-out closure's interval must reach,
   double most_left = 0.5;   ///< where what is explained is less than this share of what is left
   double misfit_left = 0.68; ///< of the misfit beyond the noise, above which the cause is unknown, too

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "gap/family_shapes.h"
 
@@ -26,6 +27,13 @@ Family from_start(Family family, double start) {
 
 bool shows_in_counts(const EffectInfo& info) {
   return info.stage == Stage::drivetrain || info.stage == Stage::encoder || is_demand(info.name);
+}
+
+bool only_rolls(const std::string& effect) {
+  static const std::set<std::string> effects{
+      "wheel_radius_scale", "wheel_radius_difference", "wheelbase",       "tyre_compliance", "wear",
+      "encoder_sampling",   "encoder_missed_counts",   "encoder_latency", "motor_response"};
+  return effects.count(effect) > 0;
 }
 
 bool is_demand(const std::string& effect) { return effect == "over_acceleration" || effect == "fast_turning"; }

@@ -46,6 +46,10 @@ bool shows_in_counts(const EffectInfo& info);
 /// Whether the effect is what was asked of the robot, beyond the course.
 bool is_demand(const std::string& effect);
 
+/// Whether the effect follows from rolling, counting and driving alone, without a contact that slips, scrubs or climbs:
+/// another engine's robot, or a real one, shows it as ours does.
+bool only_rolls(const std::string& effect);
+
 /// Every family of the catalogue that needs no search for a place or moment.
 /// `period_s` and `ticks_per_revolution`: of the recording's encoders.
 std::vector<Family> plain_families(double period_s, double ticks_per_revolution);

@@ -41,6 +41,10 @@ std::string Fit::name() const {
   return fmt::format("{}", fmt::join(names, "+"));
 }
 
+bool Fit::only_rolls() const {
+  return std::all_of(families.begin(), families.end(), [](const Family& f) { return gap::only_rolls(f.effect); });
+}
+
 Model::Model(const Recording& recording, Simulator simulator, const Scatter& scatter,
              const std::optional<NoiseModel>& known)
     : recording_(recording), simulator_(std::move(simulator)), scatter_(scatter) {

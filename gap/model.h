@@ -51,6 +51,7 @@ struct Fit {
 
   std::vector<Effect> effects() const;
   std::string name() const;    ///< effects joined by "+", in alphabetical order
+  bool only_rolls() const;     ///< all of its effects do
 };
 
 /// A recording seen through the simulator: residuals, nuisances, noise, and the evidence for any combination of

@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t kSinglesFitted = 8;
 constexpr double kContradicted = 25;  // five standard deviations, squared
 constexpr std::size_t kBases = 2;     // fits that further effects are tried on
-constexpr std::size_t kAdditionsFitted = 4;
-constexpr std::size_t kClimbs = 2;
+constexpr std::size_t kAdditionsFitted = 5;
+constexpr std::size_t kClimbs = 3;
 constexpr int kRounds = 7;
 constexpr int kFewerRounds = 4;  // what is there already has been fitted
 constexpr std::size_t kSwapsFitted = 2;
