@@ -203,6 +203,9 @@ TEST(Addition, WhatLooksLikeAnErrorOfTheFirstEffectMustBringMore) {
   EXPECT_GT(lookalike_share(slides, fit_of({"encoder_resolution", "slippery_floor", "encoder_latency"})), 0.05);
   EXPECT_EQ(lookalike_share(slides, fit_of({"encoder_resolution", "slippery_floor", "bump"})), 0);
   EXPECT_EQ(lookalike_share(fit_of({"wheelbase"}), fit_of({"wheelbase", "tyre_creep"})), 0);
+  EXPECT_GT(lookalike_share(fit_of({"encoder_missed_counts", "push"}),
+                            fit_of({"encoder_missed_counts", "push", "wheel_radius_difference"})),
+            0);
 }
 
 TEST(Diagnose, ASmallEffectBesideALargeOne) {
