@@ -44,7 +44,7 @@ TEST(TrialPlan, ByDefaultTheWholeCatalogueAndTheRecommendedRuns) {
 }
 
 TEST(TrialPlan, ShippedTrialsAreRead) {
-  for (const char* name : {"ci", "dev", "published"}) {
+  for (const char* name : {"ci", "dev", "published", "small_robots", "large_robots"}) {
     const TrialPlan plan = read_trial(UMBSIM_SOURCE_DIR "/scenarios/trials/" + std::string(name) + ".yaml");
     EXPECT_EQ(plan.name, name);
     EXPECT_FALSE(plan.description.empty());
