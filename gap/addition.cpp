@@ -37,7 +37,7 @@ const std::vector<Lookalikes>& lookalikes() {
        0.1},
       // Toed wheels scrub: how tyres give way to it, and the yaw that it takes, differ between tyres.
       {{"wheel_misalignment"}, {"slippery_floor", "tyre_creep", "wheel_radius_difference", "wear"}, 0.25},
-      // Counts that get lost by chance look like a wheel of another radius, and what chance takes from them like that, too.
+      // Counts that get lost look like another radius, and so does what chance takes from them.
       {{"encoder_missed_counts"}, {"wheel_radius_difference", "wheel_radius_scale", "wear"}, 0.02},
       // How far a wheel slides once it has let go differs as well.
       {{"slippery_floor"}, {"tyre_creep", "backlash", "encoder_latency", "caster_swivel", "caster_drag"}, 0.25},

@@ -148,7 +148,8 @@ void put_first(const Fit& fit, double leftover, Diagnosis& d) {
 // An explanation beside which `left` could be explained by something of no particular cause, is it one?
 bool explains_little(const Fit& fit, double explained, double left, const Thresholds& t) {
   const auto toe = [](const Family& f) { return f.effect == "wheel_misalignment"; };
-  const double share = std::any_of(fit.families.begin(), fit.families.end(), toe) ? t.known_share_of_toe : t.known_share;
+  const bool toed = std::any_of(fit.families.begin(), fit.families.end(), toe);
+  const double share = toed ? t.known_share_of_toe : t.known_share;
   if (explained < share * (explained + left)) return true;
   return fit.only_rolls() && left > std::max(t.left_by_rolling, (1 - t.known_share_of_rolling) * (explained + left));
 }

@@ -6,12 +6,6 @@
 namespace umbsim::gap {
 namespace {
 
-Eigen::VectorXd start_of(const Family& family) {
-  Eigen::VectorXd p(Eigen::Index(family.parameters.size()));
-  for (Eigen::Index i = 0; i < p.size(); ++i) p[i] = family.parameters[std::size_t(i)].start;
-  return p;
-}
-
 std::vector<std::vector<Effect>> stepped(const Family& family) {
   if (!family.from_zero) return {effects_of(family, start_of(family))};
   std::vector<std::vector<Effect>> all;

@@ -29,6 +29,12 @@ bool shows_in_counts(const EffectInfo& info) {
   return info.stage == Stage::drivetrain || info.stage == Stage::encoder || is_demand(info.name);
 }
 
+Eigen::VectorXd start_of(const Family& family) {
+  Eigen::VectorXd p(Eigen::Index(family.parameters.size()));
+  for (Eigen::Index i = 0; i < p.size(); ++i) p[i] = family.parameters[std::size_t(i)].start;
+  return p;
+}
+
 bool only_rolls(const std::string& effect) {
   static const std::set<std::string> effects{
       "wheel_radius_scale", "wheel_radius_difference", "wheelbase",       "tyre_compliance", "wear",

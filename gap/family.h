@@ -40,6 +40,9 @@ std::vector<Effect> effects_of(const Family& family, const Eigen::VectorXd& p);
 
 Effect effect_of(const Family& family, const Eigen::VectorXd& p);
 
+/// Where the fit of its numbers begins.
+Eigen::VectorXd start_of(const Family& family);
+
 /// Whether counts against commands, or how the robot was driven and read, show the effect; others only move the robot.
 bool shows_in_counts(const EffectInfo& info);
 

@@ -89,7 +89,8 @@ Kicks find_kicks(const Model& model, const Fit& fit) {
     for (std::size_t k = 1; k < model.filter(r).samples(); k += kStride) {
       for (int w = 0; w < 2; ++w) {
         const Pose2& at = wheels[r][std::size_t(w)][k];
-        if (!spots.insert({std::lround(at.x_m / (scale * kSpot_m)), std::lround(at.y_m / (scale * kSpot_m))}).second) continue;
+        const double spot_m = scale * kSpot_m;
+        if (!spots.insert({std::lround(at.x_m / spot_m), std::lround(at.y_m / spot_m)}).second) continue;
         places.push_back({at.x_m, at.y_m, at.theta_rad, w, 0, 0, 0});
       }
     }

@@ -18,7 +18,7 @@ struct Kick {
 struct PlaceKick {
   double x_m = 0;
   double y_m = 0;
-  double heading_rad = 0;  ///< of the robot when it passed first
+  double heading_rad = 0;  ///< of the robot where it passed nearest on a leg, else when it passed first
   int wheel = 0;           ///< 0 left, 1 right
   double lost_m = 0;
   int passes = 0;
@@ -27,7 +27,7 @@ struct PlaceKick {
 
 struct Kicks {
   std::vector<Kick> moments;      ///< best first, one per run at most
-  std::vector<PlaceKick> places;  ///< best first, at least 0.3 m apart
+  std::vector<PlaceKick> places;  ///< best first, at least 0.3 m apart (for a wheelbase of 0.36 m, else in proportion)
 };
 
 /// Matched filters for kicks along every run, over what a fit leaves.

@@ -18,12 +18,6 @@ constexpr int kBisections = 7;      // of the logarithm of a strength: to a few 
 constexpr double kMiss = 0.15;      // relative error of a severity that is called reached
 constexpr double kNearEnough = 0.8;  // share of a severity below which the tracks do not show it
 
-Eigen::VectorXd start_of(const Family& family) {
-  Eigen::VectorXd p(Eigen::Index(family.parameters.size()));
-  for (Eigen::Index i = 0; i < p.size(); ++i) p[i] = family.parameters[std::size_t(i)].start;
-  return p;
-}
-
 // What changes a track at each of its samples, carried along the nominal one to first order. Two effects that move the
 // robot alike stay alike however large they are; differences of whole poses would tell them apart by their size.
 Eigen::VectorXd first_order(const TrackFilter& filter, const std::vector<Pose2>& nominal,

@@ -12,12 +12,6 @@ namespace {
 constexpr double kLeastKick = 10;  // log evidence below which a place or a moment would not pay
 constexpr double kTryCost = 3;     // log of how many frictions are tried
 
-Eigen::VectorXd start_of(const Family& family) {
-  Eigen::VectorXd p(Eigen::Index(family.parameters.size()));
-  for (Eigen::Index i = 0; i < p.size(); ++i) p[i] = family.parameters[std::size_t(i)].start;
-  return p;
-}
-
 // Effects on how the robot is driven and read are tried where counts or commands show them.
 bool shown_by_habits(const std::string& effect, const Habits& h) {
   constexpr double kShown = 0.1;
