@@ -6,8 +6,7 @@ namespace umbsim::gap {
 namespace {
 
 constexpr double kGoodPart = 0.3;  // of what a combination explains, for one of its effects alone
-
-constexpr double kHint = 3;  // log evidence of what is too small to be named, or does not pay
+constexpr double kHint = 3;        // log evidence of what is too small to be named, or does not pay
 
 bool holds_all(const Fit& fit, const Fit& part) {
   return std::all_of(part.families.begin(), part.families.end(), [&](const Family& f) {

@@ -118,7 +118,7 @@ class Search {
       fit.seen = std::sqrt(seen_between(model_, base, fit) / model_.rows());
       if (contradicted(base, fit)) return std::nullopt;
       if (large_enough(base, fit)) return fit;
-      keep_doubtful(base, std::move(fit));
+      keep_doubtful(base, addition_needed(model_, base, none_, thresholds_), std::move(fit));
     } catch (const RunError&) {
       // A robot that cannot be simulated is no explanation,
     } catch (const InputError&) {
@@ -127,11 +127,8 @@ class Search {
     return std::nullopt;
   }
 
-  void keep_doubtful(const Fit& base, Fit fit) {
-    const bool alone = base.families.empty();
-    if (alone || pays(model_, base, fit, addition_needed(model_, base, none_, thresholds_), kDoubtful)) {
-      doubtful_.push_back(std::move(fit));
-    }
+  void keep_doubtful(const Fit& base, const Needed& needed, Fit fit) {
+    if (base.families.empty() || pays(model_, base, fit, needed, kDoubtful)) doubtful_.push_back(std::move(fit));
   }
 
   // What the counts speak against may not explain the tracks.
@@ -204,7 +201,7 @@ class Search {
       if (!fit) continue;
       ++fitted;
       if (!pays(model_, base, *fit, needed)) {
-        keep_doubtful(base, std::move(*fit));
+        keep_doubtful(base, needed, std::move(*fit));
         continue;
       }
       fits_.push_back(*fit);

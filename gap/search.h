@@ -47,6 +47,7 @@ struct Found {
   std::vector<Fit> doubtful;
 };
 
+/// Forward from single effects, to thresholds.most_effects of them.
 Found search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say);
 
 }  // namespace umbsim::gap

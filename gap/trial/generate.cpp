@@ -1,6 +1,7 @@
 #include "gap/trial/generate.h"
 
 #include <memory>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
