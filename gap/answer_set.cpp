@@ -65,4 +65,8 @@ void add_doubtful(const std::vector<Fit>& doubtful, const Fit& none, Diagnosis& 
   if (likeliest) add_to_set(likeliest->name(), d);
 }
 
+void add_faint(const std::string& effect, Diagnosis& d) {
+  if (d.causes.front().name == "none" && d.set.size() == 1) add_to_set(effect, d);
+}
+
 }  // namespace umbsim::gap

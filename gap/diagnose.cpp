@@ -4,11 +4,10 @@
 #include <cmath>
 #include <map>
 
-#include <boost/math/distributions/chi_squared.hpp>
-
 #include "gap/addition.h"
 #include "gap/answer_set.h"
 #include "gap/closure.h"
+#include "gap/evidence.h"
 #include "gap/generic.h"
 #include "gap/not_fitted.h"
 #include "gap/search.h"
@@ -21,12 +20,6 @@ namespace {
 constexpr double kAsGood = 1.001;       // held-out error of a combination, over that of something simpler
 constexpr double kWorthKnowing = 0.05;  // what effects explain, over the misfit that they leave
 constexpr double kOverconfidence = 2;   // evidence is divided by this before it becomes probability
-
-double tail(double chi_squared, double degrees_of_freedom) {
-  if (!(chi_squared > 0)) return 1;
-  return boost::math::cdf(
-      boost::math::complement(boost::math::chi_squared_distribution<double>(degrees_of_freedom), chi_squared));
-}
 
 // The best fit of every name, best first.
 std::vector<Cause> ranked(const std::vector<Fit>& fits, const Thresholds& t) {
@@ -79,6 +72,21 @@ double lack_of_fit(const Model& model, const Fit& fit, const Thresholds& t) {
 double counts_left(const Model& model, const Fit& fit) {
   const double n = model.count_rows();
   return std::max(0.0, model.counts_misfit(fit.predicted) - n - 3 * std::sqrt(2 * n)) / 2;
+}
+
+// A kick that is left at a place or at a moment, as log evidence beyond what a difference of engines makes.
+double sudden_left(const Model& model, const Fit& fit, const Thresholds& t) {
+  const Kicks kicks = find_kicks(model, fit);
+  double most = t.sudden;
+  if (!kicks.places.empty()) most = std::max(most, kicks.places.front().gain);
+  if (!kicks.moments.empty()) most = std::max(most, kicks.moments.front().gain);
+  return most - t.sudden;
+}
+
+// The same of readings that do not go with the counts. Engines differ in this by much: it says that a cause is not what
+// it was taken for, but no gap is found by it.
+double late_left(const Model& model, const Fit& fit, const Thresholds& t) {
+  return std::max(0.0, late_gain(model, fit) - t.late);
 }
 
 // A combination that predicts held-out runs worse than something simpler gives way to it, unless counts and commands
@@ -145,16 +153,16 @@ void put_first(const Fit& fit, double leftover, Diagnosis& d) {
   d.causes.insert(d.causes.begin(), Cause{fit.name(), fit, score, 0});
 }
 
-// An explanation beside which `left` could be explained by something of no particular cause, is it one?
-bool explains_little(const Fit& fit, double explained, double left, const Thresholds& t) {
+}  // namespace
+
+double may_be_left(const Fit& fit, double explained, const Thresholds& t) {
   const auto toe = [](const Family& f) { return f.effect == "wheel_misalignment"; };
   const bool toed = std::any_of(fit.families.begin(), fit.families.end(), toe);
-  const double share = toed ? t.known_share_of_toe : t.known_share;
-  if (explained < share * (explained + left)) return true;
-  return fit.only_rolls() && left > std::max(t.left_by_rolling, (1 - t.known_share_of_rolling) * (explained + left));
+  // Of what is left and explained together a share of s is left where s / (1 - s) of the explained is.
+  const auto beside = [&](double known_share) { return (1 - known_share) / known_share * std::max(0.0, explained); };
+  const double left = beside(toed ? t.known_share_of_toe : t.known_share);
+  return fit.only_rolls() ? std::min(left, std::max(t.left_by_rolling, beside(t.known_share_of_rolling))) : left;
 }
-
-}  // namespace
 
 std::vector<Effect> twin_effects(const Fit& fit) {
   std::vector<Effect> effects;
@@ -181,10 +189,10 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   say("what no effect explains");
   const double generic_none = generic_gain(model, none) + counts_left(model, none);
   const double lack_none = lack_of_fit(model, none, t);
-  const double gap =
-      std::max(d.causes.front().name == "none" ? 0 : d.causes.front().score, std::max(generic_none, lack_none));
+  const double gap = std::max({d.causes.front().name == "none" ? 0 : d.causes.front().score, generic_none, lack_none,
+                               sudden_left(model, none, t)});
   d.detected = gap > t.detect;
-  d.p_value = tail(2 * std::max(0.0, gap), 2);
+  d.p_value = chi_squared_tail(2 * std::max(0.0, gap), 2);
   d.noise = model.noise();
   d.noise_floor_mm = 1000 * model.noise_floor_m();
   if (!d.detected) {
@@ -196,17 +204,20 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   Fit best = d.causes.front().fit;
   const double lack = lack_of_fit(model, best, t);
   const double left_generic = generic_gain(model, best) + counts_left(model, best);
-  const double leftover = std::max(left_generic, lack);
+  const double no_steady_error =
+      std::max(sudden_left(model, best, t), best.families.empty() ? 0 : late_left(model, best, t));
+  const double leftover = std::max({left_generic, lack, no_steady_error});
   double explained = best.log_evidence - none.log_evidence;
   d.unexplained = d.detected && leftover > t.detect;
-  d.unexplained_p = tail(2 * std::max(0.0, leftover), 2);
+  d.unexplained_p = chi_squared_tail(2 * std::max(0.0, leftover), 2);
   if (d.detected) {
     // An explanation that leaves much, or that foretells nothing of the other conditions, is none.
     d.closure = held_out_closure(model, best);
     const bool much = explained > t.most_left * leftover;
     const bool foretells = !d.closure.known || d.closure.ci95[1] > t.least_closure || much;
-    const bool little = explains_little(best, explained, left_generic, t);
-    bool unknown = d.unexplained && (!foretells || little || lack > t.misfit_left * lack_none);
+    const bool little = left_generic > may_be_left(best, explained, t);
+    const bool other_kind = no_steady_error > std::max(t.detect, t.sudden_or_late_left * explained);
+    bool unknown = other_kind || (d.unexplained && (!foretells || little || lack > t.misfit_left * lack_none));
     if (unknown && excluded.count("uneven_floor") == 0) {
       if (const std::optional<Fit> uneven = with_uneven_floor(model, none, best, lack, t)) {
         if (uneven->families.size() == 1) add_nothing(d.closure);
@@ -258,6 +269,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     add_what_counts_show(model, none, t, d);
   }
   add_doubtful(found.doubtful, none, d);
+  if (found.faint_p_value < t.faint) add_faint(found.faint, d);
   d.segments = segment_scores(model, none);
   if (d.segments.size() > 12) d.segments.resize(12);
   if (d.detected && !best.families.empty()) {

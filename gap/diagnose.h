@@ -32,11 +32,18 @@ struct Thresholds {
   double least_closure = 0.3; ///< that the held-out closure's interval must reach,
   double most_left = 0.5;   ///< where what is explained is less than this share of what is left
   double misfit_left = 0.68; ///< of the misfit beyond the noise, above which the cause is unknown, too
+  double sudden = 40;       ///< log evidence of something sudden, at a place or a moment, that a difference of engines makes,
+  double late = 150;        ///< and the same of readings that do not go with the counts
+  double sudden_or_late_left = 0.5; ///< share of what is explained that may be left of these
+  double faint = 0.01;      ///< p-value of a single effect, below which it is in the set beside "none"
   double plainly_shown = 100; ///< log evidence of counts and commands that leaves no doubt
   double beside_floor = 0.05; ///< share of the misfit that an effect beside an uneven floor must explain
   double place_beside_floor = 0.3; ///< the same of a place or moment
   int most_effects = 3;
 };
+
+/// Log evidence that an explanation may leave before it is called unknown, if it explains `explained`.
+double may_be_left(const Fit& fit, double explained, const Thresholds& thresholds);
 
 /// One explanation of the gap. "none": no fit's families; "unknown": not an effect at all.
 struct Cause {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
+#include <boost/math/distributions/chi_squared.hpp>
 
 namespace umbsim::gap {
 
@@ -54,6 +55,12 @@ RunGram integrated_out(const Eigen::MatrixXd& products, int first, const Eigen::
   gram.products -= cross.transpose() * llt.solve(cross);
   for (Eigen::Index i = 0; i < k; ++i) gram.log_det += 2 * std::log(llt.matrixLLT()(i, i));
   return gram;
+}
+
+double chi_squared_tail(double chi_squared, double degrees_of_freedom) {
+  if (!(chi_squared > 0)) return 1;
+  return boost::math::cdf(
+      boost::math::complement(boost::math::chi_squared_distribution<double>(degrees_of_freedom), chi_squared));
 }
 
 double log_normal_cdf(double x) {

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace umbsim::gap {
 namespace {
@@ -22,6 +23,8 @@ constexpr double kNothing = 1e-12;   // standard deviation of what is not there
 constexpr int kMostHabits = 8;
 constexpr double kModels = 3;              // that are tried
 constexpr int kHabits = kRipples + 2 + 2;  // ripples, drift, trends
+constexpr double kLate_s = 0.01;           // by which what was counted and what was seen may be apart
+constexpr int kLate = 5;
 
 struct Raw {
   Eigen::MatrixXd habits;
@@ -49,6 +52,25 @@ Eigen::MatrixXd habit_columns(const Model& model, std::size_t r, const std::vect
   }
   Eigen::MatrixXd columns(3 * Eigen::Index(n), kHabits);
   for (int i = 0; i < kHabits; ++i) columns.col(i) = filter.propagate(kicks[std::size_t(i)]);
+  return columns;
+}
+
+// What was seen and what was counted at different moments, beyond one clock's offset: errors that go with the speed, and
+// with its first and second difference from sample to sample, along the way and of the heading.
+Eigen::MatrixXd late_columns(const Model& model, std::size_t r) {
+  const std::vector<Eigen::Vector3d>& velocity = model.nominal().velocity[r];
+  const std::size_t n = model.filter(r).samples();
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(3 * Eigen::Index(n), kLate);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector3d here = velocity[i];
+    const Eigen::Vector3d before = velocity[i > 0 ? i - 1 : 0];
+    const Eigen::Vector3d after = velocity[std::min(i + 1, n - 1)];
+    const Eigen::Vector3d change = (after - before) / 2;
+    const Eigen::Vector3d bend = after - 2 * here + before;
+    const Eigen::Index row = 3 * Eigen::Index(i);
+    columns.row(row).head(2) << change[0], bend[0];
+    columns.row(row + 2).tail(3) << here[2], change[2], bend[2];
+  }
   return columns;
 }
 
@@ -145,19 +167,29 @@ double density_of(const Model& model, const std::vector<RunGram>& grams, const E
   return evidence(grams, model.all_runs(), first_columns(sd.size()), sd).log_density;
 }
 
+// Log evidence for columns that all runs share, given for each run and with the sizes that they may have, on top of a fit.
+double gain_of(const Model& model, const Fit& fit, const std::function<Eigen::MatrixXd(std::size_t)>& raw,
+               const Eigen::VectorXd& sizes) {
+  const std::size_t runs = model.recording().runs.size();
+  const std::vector<Eigen::VectorXd> residual = model.residuals(fit.predicted);
+  std::vector<Eigen::MatrixXd> columns(runs);
+  tbb::parallel_for(std::size_t(0), runs,
+                    [&](std::size_t r) { columns[r] = whitened(model, r, raw(r), residual[r].size()); });
+  Eigen::VectorXd sd(model.nuisances() + sizes.size());
+  sd << model.nuisance_sd(), sizes;
+  return density_of(model, model.grams(residual, columns), sd) -
+         density_of(model, model.grams(residual, {}), model.nuisance_sd());
+}
+
 }  // namespace
 
 double steady_gain(const Model& model, const Fit& fit) {
-  const std::size_t runs = model.recording().runs.size();
-  const std::vector<Eigen::VectorXd> residual = model.residuals(fit.predicted);
-  std::vector<Eigen::MatrixXd> habits(runs);
-  tbb::parallel_for(std::size_t(0), runs, [&](std::size_t r) {
-    habits[r] = whitened(model, r, raw_columns(model, r).habits, residual[r].size());
-  });
-  Eigen::VectorXd sd(model.nuisances() + kHabits);
-  sd << model.nuisance_sd(), habits_sd();
-  return density_of(model, model.grams(residual, habits), sd) -
-         density_of(model, model.grams(residual, {}), model.nuisance_sd());
+  return gain_of(model, fit, [&](std::size_t r) { return raw_columns(model, r).habits; }, habits_sd());
+}
+
+double late_gain(const Model& model, const Fit& fit) {
+  return gain_of(model, fit, [&](std::size_t r) { return late_columns(model, r); },
+                 Eigen::VectorXd::Constant(kLate, kLate_s));
 }
 
 double generic_gain(const Model& model, const Fit& fit) {

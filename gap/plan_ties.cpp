@@ -112,10 +112,16 @@ Ties find_ties(const Model& model, const Diagnosis& d, const std::set<std::strin
       if (holds(own, info.name)) continue;
       const FixedTruth rival = nearest(left, signatures.all, truth, info.name);
       if (rival.numbers.size() == 0) continue;
+      if (excluded.count(info.name) > 0) {
+        // Were it the truth, the first would be named in its place unless what that leaves can be seen.
+        const double explained = first.score + t.effect_cost * double(own.size());
+        const double seen = std::max(t.detect, may_be_left(first.fit, explained, t));
+        if (expected_lead(left, signatures.all, rival, effect) <= seen) group.push_back(info.name);
+        continue;
+      }
       const Race race = race_among({truth, rival}, left, signatures.all, t, {0, kDraws, 1});
       if ((race.mistaken(0, 1) + race.mistaken(1, 0)) / 2 <= alike) continue;
       group.push_back(info.name);
-      if (excluded.count(info.name) > 0) continue;
       add(info.name, rival);
       // The other way round counts for the set: the truth is this one, and the first is named.
       if (own.size() == 1 && race.mistaken(1, 0) > alike) ties.could_be.push_back(info.name);

@@ -22,7 +22,8 @@ struct Ties {
 };
 
 /// `alike`: mean probability of a mistake above which two effects are not told apart. An effect that was excluded is
-/// listed in the groups, for then the exclusion decides and not the runs; it is no member and not in the set.
+/// listed in the groups where, were it the truth, the first cause would be named in its place: where that leaves less
+/// than it takes to call the cause unknown. It is no member and not in the set, for nothing speaks for it.
 Ties find_ties(const Model& model, const Diagnosis& diagnosis, const std::set<std::string>& excluded,
                const Thresholds& thresholds, double alike = 0.1);
 

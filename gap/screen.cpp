@@ -142,7 +142,7 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
   if (std::any_of(fit.families.begin(), fit.families.end(), [](const Family& g) { return g.search_cost > 0; })) return;
   const auto offer = [&](Family family, const Starts& starts, const std::vector<double>& reach, double gain) {
     if (excluded_.count(family.effect) > 0) return;
-    Candidate c{std::move(family), starts.front(), starts, vector_of(reach), gain};
+    Candidate c{std::move(family), starts.front(), starts, vector_of(reach), gain, 1};
     c.gain -= c.family.search_cost;
     candidates.push_back(std::move(c));
   };
@@ -194,7 +194,7 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
   Eigen::VectorXd shift = Eigen::VectorXd::Zero(fixed);
   shift.tail(own) = fit.p;
   const auto runs = model_.all_runs();
-  const double before = evidence(grams, runs, base, base_sd, shift).log_density;
+  const Evidence without = evidence(grams, runs, base, base_sd, shift);
   std::vector<Candidate> candidates;
   for (std::size_t f = 0; f < families_.size(); ++f) {
     const auto [first, count] = range_[f];
@@ -208,11 +208,13 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
     moved.head(fixed) = shift;
     for (int i = 0; i < count; ++i) columns.push_back(fixed + 1 + first + i);
     const Evidence e = evidence(grams, runs, columns, sd, moved);
-    Candidate c{families_[f], start_of(families_[f]), {}, {}, e.log_density - before};
+    Candidate c{families_[f], start_of(families_[f]), {}, {}, e.log_density - without.log_density, 1};
+    bool possible = true;
     for (int i = 0; i < count; ++i) {
       const double mean = e.mean[fixed + i];
       if (!families_[f].from_zero) {
         if (mean < 0) c.gain = -1e9;  // it would have to act backwards
+        possible = possible && mean >= 0;
         continue;
       }
       const FreeParameter& p = families_[f].parameters[std::size_t(i)];
@@ -220,8 +222,10 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
       if (p.min >= 0 && mean < 0) {
         const double sigmas = mean / std::sqrt(e.covariance(fixed + i, fixed + i));
         c.gain -= 0.5 * sigmas * sigmas;
+        possible = false;
       }
     }
+    if (possible && families_[f].from_zero) c.p_value = chi_squared_tail(without.misfit - e.misfit, count);
     if (const double shown = shown_start(c.family.effect, model_.habits()); !std::isnan(shown)) {
       c.start[0] = std::clamp(shown, c.family.parameters[0].min, c.family.parameters[0].max);
     }

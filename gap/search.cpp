@@ -101,7 +101,7 @@ class Search {
       if (frontier.empty()) break;
       swap_one(*std::max_element(frontier.begin(), frontier.end(), less_evidence), frontier);
     }
-    return {std::move(fits_), std::move(doubtful_)};
+    return {std::move(fits_), std::move(doubtful_), std::move(faint_), faint_p_value_};
   }
 
  private:
@@ -145,6 +145,12 @@ class Search {
 
   void fit_singles() {
     std::vector<Screen::Candidate> singles = screen_.on_top_of(none_);
+    for (const Screen::Candidate& c : singles) {
+      if (c.p_value < faint_p_value_) {
+        faint_ = c.family.effect;
+        faint_p_value_ = c.p_value;
+      }
+    }
     const double best_gain = singles.empty() ? 0 : singles.front().gain;
     for (std::size_t i = 0; i < singles.size(); ++i) {
       // Where the simulator bends, the screen is only a hint: such families are tried a little longer.
@@ -253,6 +259,8 @@ class Search {
   const Fit none_;
   std::vector<Fit> fits_;
   std::vector<Fit> doubtful_;
+  std::string faint_;
+  double faint_p_value_ = 1;
 };
 
 }  // namespace

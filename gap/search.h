@@ -20,6 +20,7 @@ class Screen {
     std::vector<Eigen::VectorXd> starts;  ///< where the simulator bends; empty: only `start`
     Eigen::VectorXd reach;                ///< first steps of a search from the best of them; empty: none
     double gain = 0;  ///< log evidence expected on top of the fit
+    double p_value = 1;  ///< of its numbers against none, were it the only effect that is asked about (chi-squared)
   };
   /// Families that could explain what `fit` leaves, best first; local ones (places, moments) are searched for anew.
   std::vector<Candidate> on_top_of(const Fit& fit) const;
@@ -45,6 +46,8 @@ struct Found {
   /// Of effects too small to be told from a difference of engines, and of combinations whose last effect brings less
   /// than it must, but not much less.
   std::vector<Fit> doubtful;
+  std::string faint;  ///< the single effect with the smallest p-value, whatever evidence it has
+  double faint_p_value = 1;
 };
 
 /// Forward from single effects, to thresholds.most_effects of them.
