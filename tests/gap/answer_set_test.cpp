@@ -40,6 +40,17 @@ TEST(AnswerSet, WhatIsTooSmallStandsBesideNone) {
   EXPECT_THAT(d.set, ElementsAre("none", "wheelbase"));
 }
 
+TEST(AnswerSet, WhatShowsMostStandsBesideNoneAlone) {
+  Diagnosis d = named(fit_of({}, 100));
+  add_faint("wheelbase", d);
+  EXPECT_THAT(d.set, ElementsAre("none", "wheelbase"));
+  add_faint("wear", d);
+  EXPECT_THAT(d.set, ElementsAre("none", "wheelbase")) << "one is enough";
+  Diagnosis found = named(fit_of({"wear"}, 100));
+  add_faint("wheelbase", found);
+  EXPECT_THAT(found.set, ElementsAre("wear"));
+}
+
 TEST(AnswerSet, OneEffectMoreStandsBesideTheFirstCause) {
   const Fit none = fit_of({}, 100);
   Diagnosis d = named(fit_of({"wheelbase"}, 200));

@@ -125,6 +125,14 @@ TEST(Evidence, AColumnThatIsIntegratedOutCountsAsIfItWereThere) {
   EXPECT_LT((e.mean - mean.head(2)).norm(), kRoundOff);
 }
 
+// Tables of the chi-squared distribution.
+TEST(Evidence, TailOfChiSquared) {
+  EXPECT_NEAR(chi_squared_tail(6.634897, 1), 0.01, 1e-7);
+  EXPECT_NEAR(chi_squared_tail(9.487729, 4), 0.05, 1e-7);
+  EXPECT_EQ(chi_squared_tail(0, 3), 1);
+  EXPECT_EQ(chi_squared_tail(-2, 3), 1);
+}
+
 TEST(Evidence, NothingIntegratedOutChangesNothing) {
   const TwoRuns data;
   const RunGram gram = integrated_out(data.grams[0].products, 5, Eigen::VectorXd());

@@ -1,0 +1,74 @@
+// Effects that the catalogue lacks, and what makes them known as unknown.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "gap/generic.h"
+#include "gap/plan_ties.h"
+#include "tests/gap/patient.h"
+
+namespace umbsim::gap {
+namespace {
+
+using testing::campaign;
+using testing::effect;
+using testing::Patient;
+
+std::string first(const Diagnosis& d) { return d.causes.front().name; }
+
+double strongest_kick(const Model& model, const Fit& fit) {
+  const Kicks kicks = find_kicks(model, fit);
+  double most = kicks.moments.empty() ? 0 : kicks.moments.front().gain;
+  return kicks.places.empty() ? most : std::max(most, kicks.places.front().gain);
+}
+
+TEST(Unknown, NothingWrongHasNeitherKicksNorLateReadings) {
+  double kick = 0;
+  double late = 0;
+  for (const std::uint64_t seed : {61, 62, 63}) {
+    const Patient p(campaign({}, seed));
+    kick = std::max(kick, strongest_kick(p.model, p.model.none()));
+    late = std::max(late, late_gain(p.model, p.model.none()));
+  }
+  std::cout << "log evidence without any effect: kick " << kick << ", late readings " << late << "\n";
+  EXPECT_LT(kick, Thresholds{}.sudden / 2);
+  EXPECT_LT(late, Thresholds{}.late / 10);
+}
+
+// A motor's lag explains that counts follow commands late, and not that the tracker saw the robot turn before.
+TEST(Unknown, LateCountsAreNoSlowMotor) {
+  const Patient p(campaign({effect("encoder_latency", {{"seconds", 0.03}})}, 64));
+  EXPECT_EQ(first(p.diagnosed()), "encoder_latency");
+  const Diagnosis without = p.diagnosed({"encoder_latency"});
+  std::cout << "late readings: " << late_gain(p.model, p.model.none()) << " of log evidence, then " << first(without)
+            << "\n";
+  EXPECT_GT(late_gain(p.model, p.model.none()), Thresholds{}.late);
+  EXPECT_EQ(first(without), "unknown");
+}
+
+TEST(Unknown, AWeakPushThatTheCatalogueLacks) {
+  const Effect push = effect("push", {{"impulse_newton_seconds", 20}, {"leg", 2}, {"seconds_into_leg", 3}}, "cw-1");
+  const Patient p(campaign({push}, 65));
+  EXPECT_EQ(first(p.diagnosed()), "push");
+  const Diagnosis without = p.diagnosed({"push"});
+  std::cout << "kick: " << strongest_kick(p.model, p.model.none()) << " of log evidence, then " << first(without) << "\n";
+  EXPECT_EQ(first(without), "unknown");
+}
+
+// Were the radii unequal by little, lost counts would be named in their place: the exclusion decides, and is told so.
+TEST(Unknown, AnExcludedDoubleIsListedAsSuch) {
+  const Patient p(campaign({effect("wheel_radius_difference", {{"relative", 0.0004}})}, 66));
+  const std::set<std::string> excluded{"wheel_radius_difference"};
+  const Diagnosis d = p.diagnosed(excluded);
+  ASSERT_EQ(first(d), "encoder_missed_counts");
+  const Ties ties = find_ties(p.model, d, excluded, Thresholds{});
+  const bool listed = std::any_of(ties.groups.begin(), ties.groups.end(), [](const std::vector<std::string>& g) {
+    return std::count(g.begin(), g.end(), "wheel_radius_difference") > 0;
+  });
+  EXPECT_TRUE(listed);
+  EXPECT_EQ(std::count(ties.members.begin(), ties.members.end(), "wheel_radius_difference"), 0);
+}
+
+}  // namespace
+}  // namespace umbsim::gap
