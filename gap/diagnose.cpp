@@ -76,11 +76,7 @@ double counts_left(const Model& model, const Fit& fit) {
 
 // A kick that is left at a place or at a moment, as log evidence beyond what a difference of engines makes.
 double sudden_left(const Model& model, const Fit& fit, const Thresholds& t) {
-  const Kicks kicks = find_kicks(model, fit);
-  double most = t.sudden;
-  if (!kicks.places.empty()) most = std::max(most, kicks.places.front().gain);
-  if (!kicks.moments.empty()) most = std::max(most, kicks.moments.front().gain);
-  return most - t.sudden;
+  return std::max(0.0, strongest(find_kicks(model, fit)) - t.sudden);
 }
 
 // The same of readings that do not go with the counts. Engines differ in this by much: it says that a cause is not what

@@ -149,4 +149,10 @@ Kicks find_kicks(const Model& model, const Fit& fit) {
   return kicks;
 }
 
+double strongest(const Kicks& kicks) {
+  const double place = kicks.places.empty() ? 0 : kicks.places.front().gain;
+  const double moment = kicks.moments.empty() ? 0 : kicks.moments.front().gain;
+  return std::max({0.0, place, moment});
+}
+
 }  // namespace umbsim::gap

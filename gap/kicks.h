@@ -30,6 +30,9 @@ struct Kicks {
   std::vector<PlaceKick> places;  ///< best first, at least 0.3 m apart (for a wheelbase of 0.36 m, else in proportion)
 };
 
+/// Log evidence of the strongest kick, at a place or at a moment; 0 if there is none.
+double strongest(const Kicks& kicks);
+
 /// Matched filters for kicks along every run, over what a fit leaves.
 Kicks find_kicks(const Model& model, const Fit& fit);
 

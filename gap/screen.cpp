@@ -209,12 +209,11 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
     for (int i = 0; i < count; ++i) columns.push_back(fixed + 1 + first + i);
     const Evidence e = evidence(grams, runs, columns, sd, moved);
     Candidate c{families_[f], start_of(families_[f]), {}, {}, e.log_density - without.log_density, 1};
-    bool possible = true;
+    bool possible = families_[f].from_zero;
     for (int i = 0; i < count; ++i) {
       const double mean = e.mean[fixed + i];
       if (!families_[f].from_zero) {
         if (mean < 0) c.gain = -1e9;  // it would have to act backwards
-        possible = possible && mean >= 0;
         continue;
       }
       const FreeParameter& p = families_[f].parameters[std::size_t(i)];
@@ -225,7 +224,7 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
         possible = false;
       }
     }
-    if (possible && families_[f].from_zero) c.p_value = chi_squared_tail(without.misfit - e.misfit, count);
+    if (possible) c.p_value = chi_squared_tail(without.misfit - e.misfit, count);
     if (const double shown = shown_start(c.family.effect, model_.habits()); !std::isnan(shown)) {
       c.start[0] = std::clamp(shown, c.family.parameters[0].min, c.family.parameters[0].max);
     }

@@ -20,7 +20,7 @@ class Screen {
     std::vector<Eigen::VectorXd> starts;  ///< where the simulator bends; empty: only `start`
     Eigen::VectorXd reach;                ///< first steps of a search from the best of them; empty: none
     double gain = 0;  ///< log evidence expected on top of the fit
-    double p_value = 1;  ///< of its numbers against none, were it the only effect that is asked about (chi-squared)
+    double p_value = 1;  ///< of its numbers against none, were it the only effect asked about (chi-squared); 1 where a family bends
   };
   /// Families that could explain what `fit` leaves, best first; local ones (places, moments) are searched for anew.
   std::vector<Candidate> on_top_of(const Fit& fit) const;

@@ -17,18 +17,12 @@ using testing::Patient;
 
 std::string first(const Diagnosis& d) { return d.causes.front().name; }
 
-double strongest_kick(const Model& model, const Fit& fit) {
-  const Kicks kicks = find_kicks(model, fit);
-  double most = kicks.moments.empty() ? 0 : kicks.moments.front().gain;
-  return kicks.places.empty() ? most : std::max(most, kicks.places.front().gain);
-}
-
 TEST(Unknown, NothingWrongHasNeitherKicksNorLateReadings) {
   double kick = 0;
   double late = 0;
   for (const std::uint64_t seed : {61, 62, 63}) {
     const Patient p(campaign({}, seed));
-    kick = std::max(kick, strongest_kick(p.model, p.model.none()));
+    kick = std::max(kick, strongest(find_kicks(p.model, p.model.none())));
     late = std::max(late, late_gain(p.model, p.model.none()));
   }
   std::cout << "log evidence without any effect: kick " << kick << ", late readings " << late << "\n";
@@ -52,7 +46,8 @@ TEST(Unknown, AWeakPushThatTheCatalogueLacks) {
   const Patient p(campaign({push}, 65));
   EXPECT_EQ(first(p.diagnosed()), "push");
   const Diagnosis without = p.diagnosed({"push"});
-  std::cout << "kick: " << strongest_kick(p.model, p.model.none()) << " of log evidence, then " << first(without) << "\n";
+  std::cout << "kick: " << strongest(find_kicks(p.model, p.model.none())) << " of log evidence, then "
+            << first(without) << "\n";
   EXPECT_EQ(first(without), "unknown");
 }
 
