@@ -42,7 +42,9 @@ void GapStages::done() {
 }
 
 gap::Simulator gap_simulator(const Replay& replay) {
-  return {[&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.poses(run, effects); },
+  return {[&replay](std::size_t run, const std::vector<Effect>& effects, double roughness_m_per_sqrt_m) {
+            return replay.poses(run, effects, roughness_m_per_sqrt_m);
+          },
           [&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.counts(run, effects); },
           [&replay](const std::vector<Effect>& effects) { return replay.habits(effects); }};
 }

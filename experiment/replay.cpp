@@ -8,6 +8,7 @@
 #include "experiment/demanded.h"
 #include "experiment/drive_run.h"
 #include "experiment/recorded_shafts.h"
+#include "experiment/rolling_noise.h"
 #include "recording/coarse_counts.h"
 #include "recording/encoder_clock.h"
 
@@ -121,13 +122,27 @@ double Replay::coarse_step(const Rig& rig) const {
   return supposed > 1 && std::abs(std::log(supposed / count_step_)) < kSameStep ? count_step_ : 1;
 }
 
-std::vector<Pose2> Replay::poses(std::size_t index, const std::vector<Effect>& effects) const {
+std::vector<Pose2> Replay::poses(std::size_t index, const std::vector<Effect>& effects,
+                                 double roughness_m_per_sqrt_m) const {
+  const Rig r = rig(index, effects);
+  if (roughness_m_per_sqrt_m == 0) return at_truth(recording_.runs[index], driven(index, r, 0));
+  std::vector<Pose2> track = driven(index, r, roughness_m_per_sqrt_m);
+  const std::vector<Pose2> mirrored = driven(index, r, -roughness_m_per_sqrt_m);
+  for (std::size_t i = 0; i < track.size(); ++i) track[i] = between(track[i], mirrored[i], 0.5);
+  return at_truth(recording_.runs[index], track);
+}
+
+// Poses at the encoders' samples.
+std::vector<Pose2> Replay::driven(std::size_t index, const Rig& rig, double roughness_m_per_sqrt_m) const {
   const RecordedRun& run = recording_.runs[index];
-  Rig r = rig(index, effects);
+  Rig r = rig;
   const double step = coarse_step(r);
   r.encoders.ticks_per_revolution = recording_.robot.ticks_per_revolution;
-  // The ticks already say what the motors did.
+  // The ticks already say what the motors did, and where their torque ended: the shafts turn as counted. A wheel without
+  // a motor still has none.
+  constexpr double kAnyTorque_nm = 1e6;
   for (Motor& m : r.drivetrain.motor) {
+    if (m.torque_limit_nm > 0) m.torque_limit_nm = kAnyTorque_nm;
     m.gain = 1;
     m.lag_s = 0;
     m.deadband_radps = 0;
@@ -136,15 +151,18 @@ std::vector<Pose2> Replay::poses(std::size_t index, const std::vector<Effect>& e
   const std::vector<double> right = shaft_speeds(run, r.encoders, r.encoders.right, false, lag_s_[index], steps_, step);
   World world(r.robot, r.drivetrain, r.floor, scenario_.physics, timed(r.pushes, stretches_[index]));
   world.place(start_[index]);
+  RollingNoise rolling(roughness_m_per_sqrt_m, r);
   std::vector<Pose2> track;
   track.reserve(run.encoders.size());
   track.push_back(world.pose());
   for (std::size_t i = 1; i < run.encoders.size(); ++i) {
+    const double period_s = run.encoders[i].time_s - run.encoders[i - 1].time_s;
+    rolling.roughen(world, {left[i], right[i]}, period_s);
     world.command(left[i], right[i]);
-    world.advance(run.encoders[i].time_s - run.encoders[i - 1].time_s);
+    world.advance(period_s);
     track.push_back(world.pose());
   }
-  return at_truth(run, track);
+  return track;
 }
 
 std::vector<std::array<double, 2>> Replay::counts(std::size_t index, const std::vector<Effect>& effects) const {

@@ -14,7 +14,7 @@ namespace umbsim {
 /// PathNoise (odometry/uncertainty.h) assumes, made by the wheels in the world.
 class RollingNoise {
  public:
-  /// `k_m_per_sqrt_m` = 0: nothing ever happens.
+  /// `k_m_per_sqrt_m` = 0: nothing ever happens; negative: the mirror image of the positive one.
   RollingNoise(double k_m_per_sqrt_m, const Rig& rig);
 
   /// Before every control period, with the wheel speeds commanded for it.

@@ -63,8 +63,9 @@ void DiagnosisProgress::draw() {
 
 Simulator DiagnosisProgress::counted(Simulator simulator) {
   Simulator result = simulator;
-  result.ticks = [this, ticks = simulator.ticks](std::size_t run, const std::vector<Effect>& effects) {
-    auto track = ticks(run, effects);
+  result.ticks = [this, ticks = simulator.ticks](std::size_t run, const std::vector<Effect>& effects,
+                                                         double roughness_m_per_sqrt_m) {
+    auto track = ticks(run, effects, roughness_m_per_sqrt_m);
     one_more();
     return track;
   };

@@ -1,6 +1,7 @@
 #include "gap/model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -69,6 +70,16 @@ Model::Model(const Recording& recording, Simulator simulator, const Scatter& sca
   nuisances_ = make_nuisances(nominal_, filters_, scatter_, drive, noise_floor_m_, kFeatureRows);
 }
 
+// Of the floor (m per square root of a metre) under wheels that scrub on rigid tyres, from how much the heading walks:
+// each grain makes them hold or give way. It moves no other robot's mean path.
+double Model::roughness_under(const std::vector<Effect>& effects) const {
+  const auto has = [&](const char* name) {
+    return std::any_of(effects.begin(), effects.end(), [&](const Effect& e) { return e.info->name == name; });
+  };
+  if (!has("wheel_misalignment") || has("tyre_creep")) return 0;
+  return recording_.robot.wheelbase_m * std::sqrt(noise_.heading_rad2_pm / 2);
+}
+
 std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& sets) const {
   const std::size_t runs = recording_.runs.size();
   std::vector<Predicted> all(sets.size());
@@ -82,7 +93,7 @@ std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& se
   tbb::parallel_for(std::size_t(0), sets.size() * runs, [&](std::size_t i) {
     const std::vector<Effect>& effects = sets[i / runs];
     const std::size_t r = i % runs;
-    all[i / runs].tracks[r] = simulator_.ticks(r, effects);
+    all[i / runs].tracks[r] = simulate_run(r, effects);
     const bool counts = recording_.runs[r].has_commands && simulator_.commands;
     if (counts && (effects.empty() || acts_on_counts(effects))) {
       all[i / runs].counted[r] = command_features(recording_.runs[r], simulator_.commands(r, effects), step_rad_);

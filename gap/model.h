@@ -87,7 +87,7 @@ class Model {
 
   /// One run under effects.
   std::vector<Pose2> simulate_run(std::size_t run, const std::vector<Effect>& effects) const {
-    return simulator_.ticks(run, effects);
+    return simulator_.ticks(run, effects, roughness_under(effects));
   }
 
   /// Differences between two predictions over a step, per run: whitened, counts against commands below.
@@ -127,6 +127,7 @@ class Model {
   double log_evidence(const Fit& fit, const std::vector<std::size_t>& runs) const;
 
  private:
+  double roughness_under(const std::vector<Effect>& effects) const;
   Eigen::VectorXd feature_rows(std::size_t run, const Predicted& a, const Predicted& b) const;
   void linearise(Fit& fit) const;
   void score(Fit& fit) const;

@@ -61,14 +61,16 @@ class Memory {
 
 template <class Call, class Felt>
 auto with_memory(const Call& call, const Felt& felt_in) {
-  using Result = decltype(call(std::size_t(0), std::vector<Effect>{}));
+  using Result = typename Call::result_type;
   const auto memory = std::make_shared<Memory<Result>>();
-  return [call, felt_in, memory](std::size_t run, const std::vector<Effect>& all) {
+  return [call, felt_in, memory](std::size_t run, const std::vector<Effect>& all, auto... roughness) {
     std::vector<Effect> effects;
     for (const Effect& e : all) {
       if (felt_in(run, e)) effects.push_back(e);
     }
-    return memory->get(std::to_string(run) + '\n' + bytes_of(effects), [&] { return call(run, effects); });
+    std::string key = std::to_string(run) + '\n' + bytes_of(effects);
+    (key.append(reinterpret_cast<const char*>(&roughness), sizeof roughness), ...);
+    return memory->get(key, [&] { return call(run, effects, roughness...); });
   };
 }
 

@@ -41,6 +41,12 @@ std::vector<double> geometric(double from, double to, double ratio) {
   return all;
 }
 
+std::vector<double> both_ways(std::vector<double> sizes) {
+  const std::size_t n = sizes.size();
+  for (std::size_t i = 0; i < n; ++i) sizes.push_back(-sizes[i]);
+  return sizes;
+}
+
 // Every combination of the values of each number.
 Starts all_of(const std::vector<std::vector<double>>& values) {
   std::vector<std::vector<double>> all{{}};
@@ -140,9 +146,10 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
   const double R = model_.recording().robot.wheel_radius_m;
   // Two local events at once are not looked for: the second would mend the first one's shape.
   if (std::any_of(fit.families.begin(), fit.families.end(), [](const Family& g) { return g.search_cost > 0; })) return;
-  const auto offer = [&](Family family, const Starts& starts, const std::vector<double>& reach, double gain) {
+  const auto offer = [&](Family family, const Starts& starts, const std::vector<double>& reach, int climbs,
+                         double gain) {
     if (excluded_.count(family.effect) > 0) return;
-    Candidate c{std::move(family), starts.front(), starts, vector_of(reach), gain, 1};
+    Candidate c{std::move(family), starts.front(), starts, vector_of(reach), climbs, gain, 1};
     c.gain -= c.family.search_cost;
     candidates.push_back(std::move(c));
   };
@@ -154,22 +161,28 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
       const double height_m = std::clamp(0.5 * std::pow(3 * std::sqrt(R) * k.lost_m, 2.0 / 3), 0.001, 0.02);
       std::vector<double> heights;
       for (const double share : {0.5, 0.7, 1.0, 1.4, 2.0}) heights.push_back(std::clamp(share * height_m, 0.001, 0.02));
-      offer(bump_family(k.x_m, k.y_m, k.heading_rad), all_of({heights, {-0.03, -0.015, 0, 0.015, 0.03}}), {0.002, 0.02},
+      offer(bump_family(k.x_m, k.y_m, k.heading_rad), all_of({heights, {-0.03, -0.015, 0, 0.015, 0.03}}), {0.002, 0.02}, 2,
             k.gain);
     }
-    // A few per cent of length, or of friction, decide how far a wheel gets that pulls against the other in a corner.
-    offer(lift_family(k.x_m, k.y_m), all_of({geometric(0.012, 0.25, 1.12), {0}, {0}}), {0.005, 0.02, 0.02}, k.gain - 1);
+    // A few per cent of length, or of friction, decide how far a wheel gets that pulls against the other in a corner. A
+    // short lift is felt where it lies under a wheel's track, and the kick tells its place to some centimetres only.
+    const std::vector<double> close{-0.06, -0.04, -0.02, 0, 0.02, 0.04, 0.06};
+    const std::vector<double> wide{-0.05, -0.025, 0, 0.025, 0.05};
+    Starts lifts = all_of({geometric(0.012, 0.06, 1.4), close, close});
+    for (const Eigen::VectorXd& p : all_of({geometric(0.065, 0.25, 1.4), wide, wide})) lifts.push_back(p);
+    offer(lift_family(k.x_m, k.y_m), lifts, {0.005, 0.01, 0.01}, 3, k.gain - 1);
     const double grips = model_.slips_at() > 0 ? model_.slips_at() : 0.05;
     offer(patch_family(k.x_m, k.y_m), all_of({geometric(0.4 * grips, 1.05 * grips, 1.05), {0.1, 0.3}, {0}, {0}}),
-          {0.02 * grips, 0.06, 0.1, 0.1}, k.gain - 2);
+          {0.02 * grips, 0.06, 0.1, 0.1}, 1, k.gain - 2);
   }
   if (kicks.moments.empty() || kicks.moments.front().gain < kLeastKick) return;
   const Kick& k = kicks.moments.front();
   const RecordedRun& run = model_.recording().runs[k.run];
   const auto [leg, seconds] = leg_at(model_.stretches(k.run), run.truth[k.sample].time_s);
   if (leg == 0) return;
+  // Tyres hold until a push is stronger than they are: a little more makes all the difference.
   offer(push_family(run.id, leg, std::max(0.0, std::round(seconds * 10 - 1) / 10)),
-        all_of({{-150, -80, -45, -25, -14, -6, -2.5, 2.5, 6, 14, 25, 45, 80, 150}, {0}}), {8, 0.1}, k.gain);
+        all_of({both_ways(geometric(2.5, 170, 1.1)), {0, 0.05, 0.1}}), {2, 0.05}, 2, k.gain);
 }
 
 std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
@@ -208,7 +221,7 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
     moved.head(fixed) = shift;
     for (int i = 0; i < count; ++i) columns.push_back(fixed + 1 + first + i);
     const Evidence e = evidence(grams, runs, columns, sd, moved);
-    Candidate c{families_[f], start_of(families_[f]), {}, {}, e.log_density - without.log_density, 1};
+    Candidate c{families_[f], start_of(families_[f]), {}, {}, 1, e.log_density - without.log_density, 1};
     bool possible = families_[f].from_zero;
     for (int i = 0; i < count; ++i) {
       const double mean = e.mean[fixed + i];

@@ -47,34 +47,50 @@ std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, con
   };
 }
 
-// The candidate with the best of its starts alone. Returns that one's log density.
-double keep_best_start(const Model& model, const Fit& base, Screen::Candidate& c) {
+// The candidate with the best few of its starts alone, best first. Returns the best one's log density.
+double keep_best_starts(const Model& model, const Fit& base, Screen::Candidate& c) {
+  if (c.starts.empty()) return -1e300;
   const auto density = density_on(model, base, c.family);
-  double best = -1e300;
-  for (const Eigen::VectorXd& start : c.starts) {
-    const double there = density(start);
-    if (there <= best) continue;
-    best = there;
-    c.start = start;
-  }
-  c.starts.clear();
-  return best;
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < c.starts.size(); ++i) order.push_back({-density(c.starts[i]), i});
+  const std::size_t few = std::min(order.size(), std::size_t(c.climbs));
+  std::partial_sort(order.begin(), order.begin() + std::ptrdiff_t(few), order.end());
+  std::vector<Eigen::VectorXd> best;
+  for (std::size_t i = 0; i < few; ++i) best.push_back(c.starts[order[i].second]);
+  c.starts = std::move(best);
+  return -order.front().first;
 }
 
-// Numbers of the candidate's family with which a fit on top of `base` begins.
-Eigen::VectorXd searched_start(const Model& model, const Fit& base, Screen::Candidate c) {
-  keep_best_start(model, base, c);
-  if (c.reach.size() == 0) return c.start;
-  for (Eigen::Index i = 0; i < c.start.size(); ++i) {
-    if (c.start[i] != 0) c.reach[i] = std::min(c.reach[i], kFirstStep * std::abs(c.start[i]));
-  }
-  Eigen::VectorXd min(c.start.size());
-  Eigen::VectorXd max(c.start.size());
-  for (Eigen::Index i = 0; i < c.start.size(); ++i) {
+// The top of the hill from one start.
+Eigen::VectorXd climbed(const std::function<double(const Eigen::VectorXd&)>& density, const Screen::Candidate& c,
+                        const Eigen::VectorXd& start) {
+  Eigen::VectorXd reach = c.reach;
+  Eigen::VectorXd min(start.size());
+  Eigen::VectorXd max(start.size());
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    if (start[i] != 0) reach[i] = std::min(reach[i], kFirstStep * std::abs(start[i]));
     min[i] = c.family.parameters[std::size_t(i)].min;
     max[i] = c.family.parameters[std::size_t(i)].max;
   }
-  return pattern_search(density_on(model, base, c.family), c.start, c.reach, min, max, kHalvings, kMostTries);
+  return pattern_search(density, start, reach, min, max, kHalvings, kMostTries);
+}
+
+// Numbers of the candidate's family with which a fit on top of `base` begins: the highest of several hills.
+Eigen::VectorXd searched_start(const Model& model, const Fit& base, Screen::Candidate c) {
+  if (c.starts.empty()) c.starts = {c.start};
+  if (c.starts.size() > std::size_t(c.climbs)) keep_best_starts(model, base, c);
+  if (c.reach.size() == 0) return c.starts.front();
+  const auto density = density_on(model, base, c.family);
+  double highest = -1e301;
+  Eigen::VectorXd best;
+  for (const Eigen::VectorXd& start : c.starts) {
+    const Eigen::VectorXd top = climbed(density, c, start);
+    const double there = density(top);
+    if (there <= highest) continue;
+    highest = there;
+    best = top;
+  }
+  return best;
 }
 
 // Nothing is left but noise, as well as it is known.
@@ -173,7 +189,7 @@ class Search {
     }
     if (rival < c.gain) return false;
     if (c.gain < kHint * rival) return true;
-    return keep_best_start(model_, none_, c) - none_.log_evidence < rival;
+    return keep_best_starts(model_, none_, c) - none_.log_evidence < rival;
   }
 
   // Where to go on: the best, and another that is nearly as good or explains something quite different.

@@ -19,6 +19,7 @@ class Screen {
     Eigen::VectorXd start;
     std::vector<Eigen::VectorXd> starts;  ///< where the simulator bends; empty: only `start`
     Eigen::VectorXd reach;                ///< first steps of a search from the best of them; empty: none
+    int climbs = 1;                       ///< from how many of the best of them
     double gain = 0;  ///< log evidence expected on top of the fit
     double p_value = 1;  ///< of its numbers against none, were it the only effect asked about (chi-squared); 1 where a family bends
   };

@@ -68,7 +68,8 @@ class Store {
   }
 
   template <class Work>
-  std::vector<double> known(const char* kind, std::size_t run, const std::vector<Effect>& effects, const Work& work) {
+  std::vector<double> known(const std::string& kind, std::size_t run, const std::vector<Effect>& effects,
+                            const Work& work) {
     if (!files_) return work();
     const std::string key = sha256(run_[run] + kind + '\0' + bytes_of(effects));
     if (auto numbers = files_->read(key)) return std::move(*numbers);
@@ -85,10 +86,17 @@ class Store {
   std::vector<std::string> run_;  // hash of everything but effects, by run
 };
 
-std::vector<Pose2> cached_ticks(Store& store, std::size_t run, const std::vector<Effect>& effects) {
-  const std::vector<double> numbers = store.known("ticks", run, effects, [&] {
+std::vector<Pose2> cached_ticks(Store& store, std::size_t run, const std::vector<Effect>& effects,
+                                double roughness_m_per_sqrt_m) {
+  std::string kind = "ticks";
+  if (roughness_m_per_sqrt_m != 0) {
+    kind.append(reinterpret_cast<const char*>(&roughness_m_per_sqrt_m), sizeof roughness_m_per_sqrt_m);
+  }
+  const std::vector<double> numbers = store.known(kind, run, effects, [&] {
     std::vector<double> flat;
-    for (const Pose2& X : store.simulator().ticks(run, effects)) flat.insert(flat.end(), {X.x_m, X.y_m, X.theta_rad});
+    for (const Pose2& X : store.simulator().ticks(run, effects, roughness_m_per_sqrt_m)) {
+      flat.insert(flat.end(), {X.x_m, X.y_m, X.theta_rad});
+    }
     return flat;
   });
   std::vector<Pose2> poses;
@@ -126,7 +134,9 @@ Simulator cached(Simulator simulator, const Recording& recording, const std::str
   const bool commands = bool(simulator.commands);
   const auto store = std::make_shared<Store>(std::move(simulator), recording, identity, choice);
   Simulator result;
-  result.ticks = [store](std::size_t run, const std::vector<Effect>& e) { return cached_ticks(*store, run, e); };
+  result.ticks = [store](std::size_t run, const std::vector<Effect>& e, double roughness_m_per_sqrt_m) {
+    return cached_ticks(*store, run, e, roughness_m_per_sqrt_m);
+  };
   if (commands) {
     result.commands = [store](std::size_t run, const std::vector<Effect>& e) {
       return cached_commands(*store, run, e);

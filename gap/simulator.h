@@ -11,8 +11,10 @@
 
 namespace umbsim::gap {
 
-/// Absolute poses of one recorded run at its truth's times, driven again from its ticks under `effects`.
-using ReplayTicks = std::function<std::vector<Pose2>(std::size_t run, const std::vector<Effect>& effects)>;
+/// Absolute poses of one recorded run at its truth's times, driven again from its ticks under `effects`, the mean of a
+/// floor with grains of this roughness (as Replay::poses; 0: smooth) and of its mirror image.
+using ReplayTicks = std::function<std::vector<Pose2>(std::size_t run, const std::vector<Effect>& effects,
+                                                     double roughness_m_per_sqrt_m)>;
 
 /// Shaft angles (left, right), radians, at the encoder samples of one run driven from its commands under `effects`.
 using ReplayCommands =

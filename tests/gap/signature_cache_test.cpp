@@ -62,9 +62,9 @@ struct Counted {
       for (const Effect& e : effects) x += std::exp(e.values.numbers.front()) * double(e.info->name.size());
       return x;
     };
-    return {[calls = calls, number](std::size_t run, const std::vector<Effect>& effects) {
+    return {[calls = calls, number](std::size_t run, const std::vector<Effect>& effects, double roughness) {
               ++*calls;
-              const double x = number(run, effects);
+              const double x = number(run, effects) + roughness;
               return std::vector<Pose2>{{x, 1 / x, -x}, {x * x, 0, std::sin(x)}};
             },
             [calls = calls, number](std::size_t run, const std::vector<Effect>& effects) {
@@ -93,7 +93,7 @@ TEST(SignatureCache, TheSameBytesAndNothingTwice) {
     for (int again = 0; again < 2; ++again) {
       for (std::size_t run = 0; run < 2; ++run) {
         for (const auto& effects : {std::vector<Effect>{}, kWide, kWider}) {
-          EXPECT_TRUE(same(kept.ticks(run, effects), plain.ticks(run, effects)));
+          EXPECT_TRUE(same(kept.ticks(run, effects, 0), plain.ticks(run, effects, 0)));
           EXPECT_EQ(kept.commands(run, effects), plain.commands(run, effects));
         }
       }
@@ -102,10 +102,10 @@ TEST(SignatureCache, TheSameBytesAndNothingTwice) {
   }
   // Another robot, another run: nothing of it is known.
   const Counted other;
-  cached(other.simulator(), recording, "another robot", {folder.path}).ticks(0, {});
+  cached(other.simulator(), recording, "another robot", {folder.path}).ticks(0, {}, 0);
   Recording changed = recording;
   changed.runs[0].encoders[1].left_ticks = 4;
-  cached(other.simulator(), changed, "robot", {folder.path}).ticks(0, {});
+  cached(other.simulator(), changed, "robot", {folder.path}).ticks(0, {}, 0);
   EXPECT_EQ(*other.calls, 2);
 }
 
@@ -113,7 +113,7 @@ TEST(SignatureCache, BrokenFilesAreComputedAgain) {
   const Folder folder;
   const Recording recording = two_runs();
   const Counted counted;
-  const std::vector<Pose2> right = cached(counted.simulator(), recording, "", {folder.path}).ticks(0, kWide);
+  const std::vector<Pose2> right = cached(counted.simulator(), recording, "", {folder.path}).ticks(0, kWide, 0);
   ASSERT_EQ(folder.files().size(), 1u);
   const fs::path file = folder.files().front();
   const auto whole = fs::file_size(file);
@@ -128,7 +128,7 @@ TEST(SignatureCache, BrokenFilesAreComputedAgain) {
   int expected = 1;
   for (const auto& harm : harms) {
     harm();
-    EXPECT_TRUE(same(cached(counted.simulator(), recording, "", {folder.path}).ticks(0, kWide), right));
+    EXPECT_TRUE(same(cached(counted.simulator(), recording, "", {folder.path}).ticks(0, kWide, 0), right));
     EXPECT_EQ(*counted.calls, ++expected);
     EXPECT_EQ(fs::file_size(file), whole) << "it is written again";
   }
@@ -139,7 +139,7 @@ TEST(SignatureCache, AFolderThatCannotBeWrittenIsDoneWithout) {
   std::ofstream(folder.path / "file") << "";
   const Counted counted;
   const Simulator kept = cached(counted.simulator(), two_runs(), "", {folder.path / "file" / "below"});
-  EXPECT_TRUE(same(kept.ticks(1, kWide), counted.simulator().ticks(1, kWide)));
+  EXPECT_TRUE(same(kept.ticks(1, kWide, 0), counted.simulator().ticks(1, kWide, 0)));
   EXPECT_EQ(folder.files().size(), 1u);
 }
 
