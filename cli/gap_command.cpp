@@ -86,7 +86,7 @@ std::string summary_text(const gap::Diagnosis& d, const std::vector<gap::NextExp
       const gap::Cause& c = d.causes[i];
       text += fmt::format("  {:5.1f} %  {}", 100 * c.probability, c.name);
       if (c.name != "unknown" && c.name != "none") {
-        for (const auto& e : gap::parameter_estimates(c.fit, d.overdispersion)) {
+        for (const auto& e : gap::parameter_estimates(c, d.overdispersion)) {
           text += fmt::format("  {} {:.5g} [{:.5g}, {:.5g}] {}", e.parameter, e.value, e.ci95[0], e.ci95[1],
                               e.unit == "1" ? "" : e.unit);
         }

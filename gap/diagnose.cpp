@@ -28,7 +28,17 @@ std::vector<Cause> ranked(const std::vector<Fit>& fits, const Thresholds& t) {
   for (const Fit& fit : fits) {
     const double score = fit.log_evidence - none - t.effect_cost * double(fit.families.size());
     const auto [found, fresh] = best.try_emplace(fit.name(), Cause{fit.name(), fit, score, 0});
-    if (!fresh && score > found->second.score) found->second = {fit.name(), fit, score, 0};
+    if (!fresh && score > found->second.score) found->second = Cause{fit.name(), fit, score, 0};
+  }
+  for (const Fit& fit : fits) {
+    Cause& cause = best.at(fit.name());
+    const auto variant = [](const Fit& f) {
+      std::vector<std::string> names;
+      for (const Family& family : f.families) names.push_back(family.effect + family.variant);
+      return names;
+    };
+    const bool near = fit.log_evidence > cause.fit.log_evidence - t.variant;
+    if (near && variant(fit) != variant(cause.fit)) cause.variants.push_back(fit);
   }
   std::vector<Cause> causes;
   for (auto& [name, cause] : best) causes.push_back(std::move(cause));

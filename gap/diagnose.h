@@ -24,6 +24,7 @@ struct Thresholds {
   double least_seen = 0.15; ///< if it is also below this share of the noise of single readings
   double smallest_addition = 0.5; ///< as `smallest`, of a further effect
   double noise_error = 0.1; ///< a misfit larger by this share is no news: three sd of two pairs of repeats
+  double variant = 8;       ///< log evidence within which another wheel of the same effect may take part
   double tie = 6;           ///< log evidence within which two explanations are not told apart
   double known_share = 0.93; ///< of the explainable evidence that named effects must explain, or the cause is unknown
   double known_share_of_toe = 0.7; ///< the same of toed wheels, whose scrub depends on tyres that nobody knows
@@ -35,7 +36,7 @@ struct Thresholds {
   double sudden = 40;       ///< log evidence of something sudden, at a place or a moment, that a difference of engines makes,
   double late = 150;        ///< and the same of readings that do not go with the counts
   double sudden_or_late_left = 0.5; ///< share of what is explained that may be left of these
-  double faint = 0.01;      ///< p-value of a single effect, below which it is in the set beside "none"
+  double faint = 0.05;      ///< p-value of a single effect, below which it is in the set beside "none"
   double plainly_shown = 100; ///< log evidence of counts and commands that leaves no doubt
   double beside_floor = 0.05; ///< share of the misfit that an effect beside an uneven floor must explain
   double place_beside_floor = 0.3; ///< the same of a place or moment
@@ -52,6 +53,7 @@ struct Cause {
   double score = 0;        ///< log evidence with prior costs, against none
   double probability = 0;
   double squared_error_drop = 0;  ///< share of the recorded tracks' squared position error that it removes
+  std::vector<Fit> variants = {}; ///< of the same effects with other numbers free, and nearly as much evidence
 };
 
 /// The effects of a fit that can be simulated: without those of which only the strength is known.

@@ -15,6 +15,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kDraws = 2000;
 // What a replay is off by that no residual shows, standard deviations, from development trials (docs/gap.md).
 constexpr double kReplayShare = 0.03;  // of a size, against its neutral value
+constexpr double kScrubShare = 0.08;   // of toe: how rough the floor is, which lets the wheels slip, is known to a fifth
 constexpr double kReplayAngle_rad = 0.01;
 constexpr double kReplayPlace_m = 0.005;
 constexpr double kReplayMoment_s = 0.01;
@@ -23,12 +24,12 @@ Json number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
 bool is_angle(const EffectParameter& p) { return p.unit == "rad" && p.bounds.min <= -3 && p.bounds.max >= 3; }
 
-double replay_sd(const EffectParameter& p, double value, double neutral) {
+double replay_sd(const std::string& effect, const EffectParameter& p, double value, double neutral) {
   if (is_angle(p)) return kReplayAngle_rad;
   if (p.name == "x_m" || p.name == "y_m") return kReplayPlace_m;
   if (p.name == "leg") return 0;
   if (p.name == "seconds_into_leg") return kReplayMoment_s;
-  return kReplayShare * std::abs(value - neutral);
+  return (effect == "wheel_misalignment" ? kScrubShare : kReplayShare) * std::abs(value - neutral);
 }
 
 }  // namespace
@@ -64,12 +65,33 @@ std::vector<ParameterEstimate> parameter_estimates(const Fit& fit, double overdi
       const bool fixed = values.front() == values.back();
       if (fixed && best.numbers[k] == neutral.numbers[k]) continue;
       const double best_k = best.numbers[k];
-      const double replay = 1.96 * replay_sd(info.parameters[k], best_k, neutral.numbers[k]);
+      const double replay = 1.96 * replay_sd(f.effect, info.parameters[k], best_k, neutral.numbers[k]);
       estimates.push_back({f.effect, info.parameters[k].name, info.parameters[k].unit, best_k,
                            {best_k - std::hypot(best_k - values[kDraws / 40], replay),
                             best_k + std::hypot(values[kDraws - 1 - kDraws / 40] - best_k, replay)}});
     }
     at += n;
+  }
+  return estimates;
+}
+
+std::vector<ParameterEstimate> parameter_estimates(const Cause& cause, double overdispersion) {
+  std::vector<ParameterEstimate> estimates = parameter_estimates(cause.fit, overdispersion);
+  for (const Fit& variant : cause.variants) {
+    for (const ParameterEstimate& v : parameter_estimates(variant, overdispersion)) {
+      const EffectInfo& info = find_effect(v.effect);
+      const auto parameter = std::find_if(info.parameters.begin(), info.parameters.end(),
+                                          [&](const EffectParameter& p) { return p.name == v.parameter; });
+      if (is_angle(*parameter)) continue;  // of what may not be there
+      const auto same = [&](const ParameterEstimate& e) { return e.effect == v.effect && e.parameter == v.parameter; };
+      auto at = std::find_if(estimates.begin(), estimates.end(), same);
+      if (at == estimates.end()) {
+        const double neutral = parameter->neutral;
+        at = estimates.insert(at, {v.effect, v.parameter, v.unit, neutral, {neutral, neutral}});
+      }
+      at->ci95[0] = std::min(at->ci95[0], v.ci95[0]);
+      at->ci95[1] = std::max(at->ci95[1], v.ci95[1]);
+    }
   }
   return estimates;
 }
@@ -100,7 +122,7 @@ Json diagnosis_json(const Diagnosis& d) {
       effects[c.name] = Json::object();
     } else {
       for (const Family& f : c.fit.families) effects[f.effect] = Json::object();
-      for (const ParameterEstimate& e : parameter_estimates(c.fit, d.overdispersion)) {
+      for (const ParameterEstimate& e : parameter_estimates(c, d.overdispersion)) {
         effects[e.effect][e.parameter] = {{"value", e.value}, {"ci95", {e.ci95[0], e.ci95[1]}}, {"unit", e.unit}};
       }
       for (const Effect& e : c.fit.effects()) {

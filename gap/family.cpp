@@ -58,6 +58,22 @@ std::vector<Effect> effects_of(const Family& family, const Eigen::VectorXd& p) {
 
 namespace {
 
+// Both wheels toed by the same angle against each other: the robot goes straight, and scrubs.
+Family toed_alike() {
+  const EffectInfo& info = find_effect("wheel_misalignment");
+  const EffectValues base = neutral_effect(info).values;
+  const std::size_t left = index_of(info, "left_toe_rad");
+  const std::size_t right = index_of(info, "right_toe_rad");
+  Family family{"wheel_misalignment", "alike", {{"toe_rad", 0.01, 2e-3, 0.008, -0.2, 0.2}}, {}, {}, false, 0};
+  family.values = [=](const Eigen::VectorXd& p) {
+    EffectValues values = base;
+    values.numbers[left] = p[0];
+    values.numbers[right] = -p[0];
+    return values;
+  };
+  return family;
+}
+
 // Both encoders lose the same share.
 Family both_miss() {
   const EffectInfo& info = find_effect("encoder_missed_counts");
@@ -145,6 +161,7 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution)
       direct("wheel_misalignment", "left", {signed_one("left_toe_rad", 2e-3, 0.008)}),
       direct("wheel_misalignment", "both",
              {signed_one("left_toe_rad", 2e-3, 0.008), signed_one("right_toe_rad", 2e-3, 0.008)}),
+      toed_alike(),
       on_soft_tyres(direct("wheel_misalignment", "right", {signed_one("right_toe_rad", 2e-3, 0.008)})),
       on_soft_tyres(direct("wheel_misalignment", "left", {signed_one("left_toe_rad", 2e-3, 0.008)})),
       vector_family("wheel_eccentricity", "right_m", "right_phase_rad", 5e-4, 1e-3, 0.02),

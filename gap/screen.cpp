@@ -14,9 +14,8 @@ constexpr double kTryCost = 3;     // log of how many frictions are tried
 
 // Effects on how the robot is driven and read are tried where counts or commands show them.
 bool shown_by_habits(const std::string& effect, const Habits& h) {
-  constexpr double kShown = 0.1;
-  if (effect == "encoder_sampling") return h[3] > kShown;
-  if (effect == "encoder_resolution") return h[4] < -kShown;
+  if (effect == "encoder_sampling") return h[3] > 0;
+  if (effect == "encoder_resolution") return h[4] < -0.1;
   return true;
 }
 

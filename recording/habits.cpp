@@ -120,7 +120,7 @@ Habits measured_habits(const Recording& recording, const std::vector<std::vector
     habits[2] = ratio(turning, p.angular_speed_radps);
   }
   habits[3] = std::log(sampling_ratio(recording, stretches, count_step));
-  if (habits[3] < 0.1) habits[3] = 0;
+  if (habits[3] < 0.04) habits[3] = 0;  // counters that are read at every period stand still as good as never
   habits[4] = -std::log(count_step);
   // What is hardly measured is as declared: ramps of one or two samples, a first or last step.
   for (double& h : habits) {
