@@ -165,10 +165,14 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
     }
     // A few per cent of length, or of friction, decide how far a wheel gets that pulls against the other in a corner. A
     // short lift is felt where it lies under a wheel's track, and the kick tells its place to some centimetres only.
+    const bool closely = i == 0 && fit.families.empty();
+    const std::vector<double> few{-0.04, 0, 0.04};
     const std::vector<double> close{-0.06, -0.04, -0.02, 0, 0.02, 0.04, 0.06};
     const std::vector<double> wide{-0.05, -0.025, 0, 0.025, 0.05};
-    Starts lifts = all_of({geometric(0.012, 0.06, 1.4), close, close});
-    for (const Eigen::VectorXd& p : all_of({geometric(0.065, 0.25, 1.4), wide, wide})) lifts.push_back(p);
+    Starts lifts = all_of({geometric(0.012, 0.06, 1.4), closely ? close : few, closely ? close : few});
+    for (const Eigen::VectorXd& p : all_of({geometric(0.065, 0.25, 1.4), closely ? wide : few, closely ? wide : few})) {
+      lifts.push_back(p);
+    }
     offer(lift_family(k.x_m, k.y_m), lifts, {0.005, 0.01, 0.01}, 3, k.gain - 1);
     const double grips = model_.slips_at() > 0 ? model_.slips_at() : 0.05;
     offer(patch_family(k.x_m, k.y_m), all_of({geometric(0.4 * grips, 1.05 * grips, 1.05), {0.1, 0.3}, {0}, {0}}),

@@ -24,7 +24,10 @@ constexpr std::size_t kSwapsFitted = 2;
 constexpr double kRivals = 0.8;    // share of an effect's gain that the screen must see in another in its place
 constexpr double kShown = 50;      // log evidence of a demand in commands
 constexpr double kFarBehind = 20;  // log evidence
-constexpr double kHint = 0.02;     // of what explains all, below which no place or moment is looked at
+constexpr double kHint = 0.02;     // of what explains all, below which nothing else is looked at,
+constexpr double kLocalHint = 0.25;    // and the same of places and moments, which take long
+constexpr double kWorthAClimb = 0.1;   // of what the best single effect explains, the same of the best start
+constexpr double kPartOfNeeded = 0.25; // of what a further effect must bring, the same of its best start
 constexpr double kDoubtful = 0.3;  // of what a further effect must bring
 constexpr double kFirstStep = 0.4;  // of a number, where a search begins
 constexpr int kHalvings = 4;
@@ -75,12 +78,14 @@ Eigen::VectorXd climbed(const std::function<double(const Eigen::VectorXd&)>& den
   return pattern_search(density, start, reach, min, max, kHalvings, kMostTries);
 }
 
-// Numbers of the candidate's family with which a fit on top of `base` begins: the highest of several hills.
-Eigen::VectorXd searched_start(const Model& model, const Fit& base, Screen::Candidate c) {
+// Numbers of the candidate's family with which a fit on top of `base` begins: the highest of several hills. Nothing where
+// the best start is below `least` of log density: a climb takes many simulations.
+std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& base, Screen::Candidate c, double least) {
   if (c.starts.empty()) c.starts = {c.start};
   if (c.starts.size() > std::size_t(c.climbs)) keep_best_starts(model, base, c);
   if (c.reach.size() == 0) return c.starts.front();
   const auto density = density_on(model, base, c.family);
+  if (c.starts.size() > 1 && density(c.starts.front()) < least) return std::nullopt;
   double highest = -1e301;
   Eigen::VectorXd best;
   for (const Eigen::VectorXd& start : c.starts) {
@@ -121,14 +126,19 @@ class Search {
   }
 
  private:
+  static bool is_local(const Fit& fit) {
+    return std::any_of(fit.families.begin(), fit.families.end(), [](const Family& f) { return f.search_cost > 0; });
+  }
   static bool less_evidence(const Fit& a, const Fit& b) { return a.log_evidence < b.log_evidence; }
 
-  std::optional<Fit> tried(const Fit& base, const Screen::Candidate& c) {
+  std::optional<Fit> tried(const Fit& base, const Screen::Candidate& c, double least) {
     std::vector<Family> families = base.families;
     families.push_back(c.family);
     try {
-      Eigen::VectorXd start(base.p.size() + c.start.size());
-      start << base.p, searched_start(model_, base, c);
+      const std::optional<Eigen::VectorXd> from = searched_start(model_, base, c, least);
+      if (!from) return std::nullopt;
+      Eigen::VectorXd start(base.p.size() + from->size());
+      start << base.p, *from;
       Fit fit = model_.fit(families, start, base.families.empty() ? kRounds : kFewerRounds);
       fit.size = displacement_m(fit.predicted.tracks, base.predicted.tracks) / model_.noise_floor_m();
       fit.seen = std::sqrt(seen_between(model_, base, fit) / model_.rows());
@@ -176,7 +186,9 @@ class Search {
       const bool shown = is_demand(singles[i].family.effect) && singles[i].gain > kShown;
       if (i >= kSinglesFitted && singles[i].gain < best_gain - 15 && !shown) continue;
       if (!singles[i].starts.empty() && idle(singles[i])) continue;
-      if (auto fit = tried(none_, singles[i])) fits_.push_back(std::move(*fit));
+      const double most = std::max_element(fits_.begin(), fits_.end(), less_evidence)->log_evidence;
+      const double least = none_.log_evidence + kWorthAClimb * (most - none_.log_evidence);
+      if (auto fit = tried(none_, singles[i], least)) fits_.push_back(std::move(*fit));
     }
   }
 
@@ -188,7 +200,7 @@ class Search {
       if (explains_all(model_, f, thresholds_)) rival = std::max(rival, f.log_evidence - none_.log_evidence);
     }
     if (rival < c.gain) return false;
-    if (c.gain < kHint * rival) return true;
+    if (c.gain < (c.family.search_cost > 0 ? kLocalHint : kHint) * rival) return true;
     return keep_best_starts(model_, none_, c) - none_.log_evidence < rival;
   }
 
@@ -197,7 +209,10 @@ class Search {
     std::stable_sort(frontier.begin(), frontier.end(), [](const Fit& a, const Fit& b) { return less_evidence(b, a); });
     std::vector<Fit> from;
     for (Fit& f : frontier) {
-      const bool other = std::none_of(from.begin(), from.end(), [&](const Fit& g) { return g.name() == f.name(); });
+      // Two explanations of what happened at one place or moment are not two.
+      const bool other = std::none_of(from.begin(), from.end(), [&](const Fit& g) {
+        return g.name() == f.name() || (is_local(g) && is_local(f));
+      });
       if (other && from.size() < kBases) from.push_back(std::move(f));
     }
     const bool second_is_idle = from.size() == 2 && explains_all(model_, from[0], thresholds_) &&
@@ -209,6 +224,7 @@ class Search {
   // Fits of `base` and one effect more that pay.
   void add_to(const Fit& base, std::vector<Fit>& paying) {
     const Needed needed = addition_needed(model_, base, none_, thresholds_);
+    const double held = model_.density_at(base.families, base.p);
     std::size_t fitted = 0;
     std::size_t climbed = 0;
     for (const Screen::Candidate& c : screen_.on_top_of(base)) {
@@ -219,7 +235,7 @@ class Search {
       const double hint = counts ? std::min(needed.hint, 0.5 * needed.counts) : needed.hint;
       if (c.gain < (c.family.search_cost > 0 ? 0.5 * needed.local : hint)) continue;
       if (c.reach.size() > 1) ++climbed;
-      auto fit = tried(base, c);
+      auto fit = tried(base, c, held + kPartOfNeeded * needed.local);
       if (!fit) continue;
       ++fitted;
       if (!pays(model_, base, *fit, needed)) {
@@ -244,7 +260,7 @@ class Search {
         if (c.family.effect == whole.families[out].effect) continue;
         if (c.gain < kRivals * worth || fitted == kSwapsFitted) break;
         if (c.reach.size() > 1) continue;
-        auto fit = tried(base, c);
+        auto fit = tried(base, c, -1e300);
         if (!fit) continue;
         ++fitted;
         if (!pays(model_, base, *fit, addition_needed(model_, base, none_, thresholds_))) continue;

@@ -100,6 +100,14 @@ TEST(SignatureCache, TheSameBytesAndNothingTwice) {
     }
     EXPECT_EQ(*own.calls, call_of_the_program == 0 ? 12 : 0);
   }
+  // A rough floor is another floor.
+  const Counted rough;
+  const Simulator kept = cached(rough.simulator(), recording, "robot", {folder.path});
+  for (int again = 0; again < 2; ++again) {
+    EXPECT_TRUE(same(kept.ticks(0, kWide, 1e-4), plain.ticks(0, kWide, 1e-4)));
+    EXPECT_FALSE(same(kept.ticks(0, kWide, 1e-4), kept.ticks(0, kWide, 0)));
+  }
+  EXPECT_EQ(*rough.calls, 1);
   // Another robot, another run: nothing of it is known.
   const Counted other;
   cached(other.simulator(), recording, "another robot", {folder.path}).ticks(0, {}, 0);

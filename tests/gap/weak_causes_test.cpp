@@ -1,0 +1,110 @@
+// Causes that a search finds only where it looks closely, and numbers that a recording hardly tells.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "gap/diagnosis_json.h"
+#include "tests/gap/patient.h"
+
+namespace umbsim::gap {
+namespace {
+
+using testing::campaign;
+using testing::effect;
+using testing::Patient;
+
+/// The estimate of a parameter of the first cause, printed.
+ParameterEstimate estimate(const Diagnosis& d, const std::string& parameter) {
+  for (const ParameterEstimate& e : parameter_estimates(d.causes.front(), d.overdispersion)) {
+    if (e.parameter != parameter) continue;
+    std::cout << fmt::format("{}: {} {:.5g} [{:.5g}, {:.5g}] {}\n", d.causes.front().name, parameter, e.value, e.ci95[0],
+                             e.ci95[1], e.unit);
+    return e;
+  }
+  ADD_FAILURE() << d.causes.front().name << " has no " << parameter;
+  return {};
+}
+
+bool holds(const ParameterEstimate& e, double truth) { return e.ci95[0] <= truth && truth <= e.ci95[1]; }
+
+// A hole as long as a thumb under one wheel's track at a corner: some centimetres beside it nothing is felt.
+TEST(WeakCause, AShortLiftAtACorner) {
+  const double x_m = 2 + 0.17 * std::cos(0.3);
+  const double y_m = 0.17 * std::sin(0.3);
+  const Patient p(campaign({effect("wheel_lift", {{"x_m", x_m}, {"y_m", y_m}, {"length_m", 0.03}})}, 71));
+  const Diagnosis d = p.diagnosed();
+  ASSERT_EQ(d.causes.front().name, "wheel_lift");
+  EXPECT_LT(std::hypot(estimate(d, "x_m").value - x_m, estimate(d, "y_m").value - y_m), 0.02);
+  EXPECT_NEAR(estimate(d, "length_m").value, 0.03, 0.006);
+}
+
+// Toed against each other by the same angle, wheels only scrub: nothing of that is proportional to the angle near zero.
+TEST(WeakCause, WheelsToedAlike) {
+  const Patient p(campaign({effect("wheel_misalignment", {{"left_toe_rad", 0.04}, {"right_toe_rad", -0.04}})}, 72, 4));
+  const Diagnosis d = p.diagnosed();
+  ASSERT_EQ(d.causes.front().name, "wheel_misalignment");
+  EXPECT_TRUE(holds(estimate(d, "left_toe_rad"), 0.04));
+  EXPECT_TRUE(holds(estimate(d, "right_toe_rad"), -0.04));
+}
+
+// How much of one wheel's toe moves the robot sideways hangs on the floor's roughness.
+TEST(WeakCause, OneToedWheelOnARoughFloor) {
+  const Patient p(campaign({effect("wheel_misalignment", {{"left_toe_rad", 0.015}})}, 73));
+  const Diagnosis d = p.diagnosed();
+  ASSERT_EQ(d.causes.front().name, "wheel_misalignment");
+  const ParameterEstimate e = estimate(d, "left_toe_rad");
+  EXPECT_NEAR(e.value, 0.015, 0.15 * 0.015);
+  EXPECT_TRUE(holds(e, 0.015));
+}
+
+// One encoder that loses counts is simpler than two, and hardly differs from two of which one loses few.
+TEST(WeakCause, AnIntervalAllowsForTheOtherWheel) {
+  const Patient p(campaign({effect("encoder_missed_counts", {{"left_probability", 0.002}})}, 74));
+  const Diagnosis d = p.diagnosed();
+  ASSERT_EQ(d.causes.front().name, "encoder_missed_counts");
+  ASSERT_FALSE(d.causes.front().variants.empty());
+  EXPECT_TRUE(holds(estimate(d, "left_probability"), 0.002));
+  const ParameterEstimate other = estimate(d, "right_probability");
+  EXPECT_TRUE(holds(other, 0));
+  EXPECT_LT(other.ci95[0], other.ci95[1]);
+}
+
+// A family with one number, 1 +- 0.1 of its units.
+Fit told(const std::string& variant, double value, double sd) {
+  Fit fit;
+  for (const Family& f : plain_families(0.02, 2000)) {
+    if (f.effect == "wear" && f.variant == variant) fit.families = {f};
+  }
+  const Eigen::Index n = Eigen::Index(fit.families.front().parameters.size());
+  fit.p = Eigen::VectorXd::Constant(n, value);
+  fit.covariance = Eigen::MatrixXd::Identity(n, n) * sd * sd;
+  return fit;
+}
+
+TEST(WeakCause, VariantsWidenIntervalsAndChangeNoValue) {
+  const Fit right = told("right", 1e-4, 1e-5);
+  Cause cause{"wear", right, 0, 0};
+  const std::vector<ParameterEstimate> alone = parameter_estimates(cause, 1);
+  ASSERT_EQ(alone.size(), 1u);
+  cause.variants = {told("both", 6e-5, 2e-5)};
+  const std::vector<ParameterEstimate> all = parameter_estimates(cause, 1);
+  ASSERT_EQ(all.size(), 2u);
+  for (const ParameterEstimate& e : all) {
+    if (e.parameter == "right_relative_per_run") {
+      EXPECT_EQ(e.value, 1e-4);
+      EXPECT_EQ(e.ci95[1], alone.front().ci95[1]);
+      EXPECT_NEAR(e.ci95[0], 6e-5 - 1.96 * 2e-5, 3e-6);
+    } else {
+      EXPECT_EQ(e.parameter, "left_relative_per_run");
+      EXPECT_EQ(e.value, 0);
+      EXPECT_EQ(e.ci95[0], 0) << "the fit keeps it there";
+      EXPECT_NEAR(e.ci95[1], 6e-5 + 1.96 * 2e-5, 3e-6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace umbsim::gap
