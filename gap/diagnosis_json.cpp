@@ -66,9 +66,12 @@ std::vector<ParameterEstimate> parameter_estimates(const Fit& fit, double overdi
       if (fixed && best.numbers[k] == neutral.numbers[k]) continue;
       const double best_k = best.numbers[k];
       const double replay = 1.96 * replay_sd(f.effect, info.parameters[k], best_k, neutral.numbers[k]);
-      estimates.push_back({f.effect, info.parameters[k].name, info.parameters[k].unit, best_k,
-                           {best_k - std::hypot(best_k - values[kDraws / 40], replay),
-                            best_k + std::hypot(values[kDraws - 1 - kDraws / 40] - best_k, replay)}});
+      const Bounds possible = is_angle(info.parameters[k]) ? Bounds{} : info.parameters[k].bounds;
+      estimates.push_back(
+          {f.effect, info.parameters[k].name, info.parameters[k].unit, best_k,
+           {std::max(std::min(best_k, possible.min), best_k - std::hypot(best_k - values[kDraws / 40], replay)),
+            std::min(std::max(best_k, possible.max),
+                     best_k + std::hypot(values[kDraws - 1 - kDraws / 40] - best_k, replay))}});
     }
     at += n;
   }

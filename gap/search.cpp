@@ -209,15 +209,14 @@ class Search {
     std::stable_sort(frontier.begin(), frontier.end(), [](const Fit& a, const Fit& b) { return less_evidence(b, a); });
     std::vector<Fit> from;
     for (Fit& f : frontier) {
-      // Two explanations of what happened at one place or moment are not two.
-      const bool other = std::none_of(from.begin(), from.end(), [&](const Fit& g) {
-        return g.name() == f.name() || (is_local(g) && is_local(f));
-      });
+      const bool other = std::none_of(from.begin(), from.end(), [&](const Fit& g) { return g.name() == f.name(); });
       if (other && from.size() < kBases) from.push_back(std::move(f));
     }
-    const bool second_is_idle = from.size() == 2 && explains_all(model_, from[0], thresholds_) &&
+    if (from.size() < 2) return from;
+    const bool second_is_idle = explains_all(model_, from[0], thresholds_) &&
                                 from[1].log_evidence < from[0].log_evidence - kFarBehind;
-    if (second_is_idle) from.resize(1);
+    // Two explanations of what happened at one place or moment are not two.
+    if (second_is_idle || (is_local(from[0]) && is_local(from[1]))) from.resize(1);
     return from;
   }
 
