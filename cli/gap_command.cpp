@@ -42,8 +42,10 @@ std::string folder_name(const std::string& path) {
   return p.has_filename() ? p.filename().string() : p.parent_path().filename().string();
 }
 
-// The scenario with the diagnosed effects added; each effect once.
-std::string twin_yaml(Scenario scenario, const gap::Diagnosis& d) {
+constexpr double kRoughest_m_per_sqrt_m = 0.005;  // that a scenario may have
+
+// The scenario with the diagnosed effects added; each effect once. Wheels that scrub need the floor that they scrub on.
+std::string twin_yaml(Scenario scenario, const Replay& replay, const gap::Diagnosis& d) {
   if (!d.causes.empty() && d.causes.front().name != "none" && d.causes.front().name != "unknown" &&
       !d.twin_is_nominal) {
     std::vector<Effect> once;
@@ -56,6 +58,11 @@ std::string twin_yaml(Scenario scenario, const gap::Diagnosis& d) {
         *there = e;
     }
     scenario.effects = std::move(once);
+    double& roughness = scenario.noise.wheel_noise_m_per_sqrt_m;
+    if (roughness == 0 && replay.scrubs(scenario.effects)) {
+      roughness = std::min(kRoughest_m_per_sqrt_m,
+                           gap::roughness_m_per_sqrt_m(d.noise, replay.recording().robot.wheelbase_m));
+    }
   }
   return resolved_yaml(scenario);
 }
@@ -168,7 +175,7 @@ void run_diagnose(const DiagnoseArguments& a) {
   write_folder(out, a.force, [&](const fs::path& into) {
     write_text_file(into / "diagnosis.json", json.dump(2) + "\n");
     write_text_file(into / "report.html", page(model, d, json));
-    write_text_file(into / "twin.yaml", twin_yaml(scenario, d));
+    write_text_file(into / "twin.yaml", twin_yaml(scenario, replay, d));
     keep_urdf(scenario, into);
     write_text_file(into / "provenance.json", provenance_json(a.recording, 0).dump(2) + "\n");
   });

@@ -29,7 +29,9 @@ struct PredictArguments {
 
 gap::Prediction replayed(const std::string& name, const Replay& replay, const std::vector<Effect>& effects) {
   gap::Prediction p{name, std::vector<std::vector<Pose2>>(replay.recording().runs.size())};
-  tbb::parallel_for(std::size_t(0), p.tracks.size(), [&](std::size_t r) { p.tracks[r] = replay.poses(r, effects); });
+  const double roughness = replay.scrubs(effects) ? replay.scenario().noise.wheel_noise_m_per_sqrt_m : 0;
+  tbb::parallel_for(std::size_t(0), p.tracks.size(),
+                    [&](std::size_t r) { p.tracks[r] = replay.poses(r, effects, roughness); });
   return p;
 }
 

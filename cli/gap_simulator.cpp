@@ -46,7 +46,8 @@ gap::Simulator gap_simulator(const Replay& replay) {
             return replay.poses(run, effects, roughness_m_per_sqrt_m);
           },
           [&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.counts(run, effects); },
-          [&replay](const std::vector<Effect>& effects) { return replay.habits(effects); }};
+          [&replay](const std::vector<Effect>& effects) { return replay.habits(effects); },
+          [&replay](const std::vector<Effect>& effects) { return replay.scrubs(effects); }};
 }
 
 gap::Simulator cached_gap_simulator(const Replay& replay, bool no_cache) {

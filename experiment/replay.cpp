@@ -132,6 +132,14 @@ std::vector<Pose2> Replay::poses(std::size_t index, const std::vector<Effect>& e
   return at_truth(recording_.runs[index], track);
 }
 
+bool Replay::scrubs(const std::vector<Effect>& effects) const {
+  const std::vector<Effect> all = combined(scenario_.effects, effects);
+  const auto has = [&](const char* name) {
+    return std::any_of(all.begin(), all.end(), [&](const Effect& e) { return e.info->name == name; });
+  };
+  return has("wheel_misalignment") && !has("tyre_creep");
+}
+
 // Poses at the encoders' samples.
 std::vector<Pose2> Replay::driven(std::size_t index, const Rig& rig, double roughness_m_per_sqrt_m) const {
   const RecordedRun& run = recording_.runs[index];

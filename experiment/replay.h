@@ -25,12 +25,15 @@ class Replay {
   const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }
 
   /// Absolute poses at the times of the run's truth. The start is where odometry lies best on the first part of the
-  /// track. `roughness_m_per_sqrt_m`: of what the wheels roll on, as noise.wheel_m_per_sqrt_m of a scenario. Wheels that
+  /// track. `roughness_m_per_sqrt_m`: of what the wheels roll on, as noise.wheel_noise_m_per_sqrt_m of a scenario. Wheels that
   /// scrub hold or give way with every grain of it, so that its mean effect is part of the robot's path: the run is driven
   /// over some grains and over their mirror image, whose random errors cancel, and the mean of both is returned. Throws
   /// RunError, InputError.
   std::vector<Pose2> poses(std::size_t run, const std::vector<Effect>& effects,
                            double roughness_m_per_sqrt_m = 0) const;
+
+  /// Whether wheels scrub on rigid tyres under effects, those of the scenario included.
+  bool scrubs(const std::vector<Effect>& effects) const;
 
   /// What the encoders would count, as angles in radians (left, right), at the times of the encoder samples when the
   /// recorded commands are driven open loop. Lost counts are lost in the mean; rounded only to steps that are coarser

@@ -62,6 +62,10 @@ Model::Model(const Recording& recording, Simulator simulator, const Scatter& sca
   const NoiseEstimate estimate = known ? NoiseEstimate{*known, false} : estimate_noise(nominal_);
   noise_ = estimate.noise;
   replicated_ = estimate.replicated;
+  if (roughness_under({}) != 0) {
+    without_effects_ = predict({{}}).front();
+    nominal_ = beside(recording, without_effects_.tracks);
+  }
   noise_floor_m_ = gap::noise_floor_m(nominal_, noise_);
   for (std::size_t r = 0; r < recording.runs.size(); ++r) {
     filters_.emplace_back(nominal_.tracks[r], nominal_.rolled_m[r], noise_, nominal_.seen[r], nominal_.velocity[r]);
@@ -70,14 +74,10 @@ Model::Model(const Recording& recording, Simulator simulator, const Scatter& sca
   nuisances_ = make_nuisances(nominal_, filters_, scatter_, drive, noise_floor_m_, kFeatureRows);
 }
 
-// Of the floor (m per square root of a metre) under wheels that scrub on rigid tyres, from how much the heading walks:
-// each grain makes them hold or give way. It moves no other robot's mean path.
+// Each grain of a floor makes wheels that scrub hold or give way. It moves no other robot's mean path.
 double Model::roughness_under(const std::vector<Effect>& effects) const {
-  const auto has = [&](const char* name) {
-    return std::any_of(effects.begin(), effects.end(), [&](const Effect& e) { return e.info->name == name; });
-  };
-  if (!has("wheel_misalignment") || has("tyre_creep")) return 0;
-  return recording_.robot.wheelbase_m * std::sqrt(noise_.heading_rad2_pm / 2);
+  if (!simulator_.scrubs || !simulator_.scrubs(effects)) return 0;
+  return roughness_m_per_sqrt_m(noise_, recording_.robot.wheelbase_m);
 }
 
 std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& sets) const {

@@ -131,6 +131,7 @@ std::optional<fs::path> user_cache_folder() {
 Simulator cached(Simulator simulator, const Recording& recording, const std::string& identity,
                  const CacheChoice& choice) {
   const auto habits = simulator.habits;
+  const auto scrubs = simulator.scrubs;
   const bool commands = bool(simulator.commands);
   const auto store = std::make_shared<Store>(std::move(simulator), recording, identity, choice);
   Simulator result;
@@ -143,6 +144,7 @@ Simulator cached(Simulator simulator, const Recording& recording, const std::str
     };
   }
   result.habits = habits;
+  result.scrubs = scrubs;
   return result;
 }
 

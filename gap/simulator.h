@@ -25,6 +25,8 @@ struct Simulator {
   ReplayTicks ticks;
   ReplayCommands commands;
   std::function<Habits(const std::vector<Effect>&)> habits;  ///< as recording/habits.h, under effects
+  /// Whether wheels scrub under effects, so that the floor's roughness moves their mean path; none: never.
+  std::function<bool(const std::vector<Effect>&)> scrubs = {};
 };
 
 }  // namespace umbsim::gap

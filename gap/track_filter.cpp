@@ -13,6 +13,10 @@ constexpr double kStart_rad = 0.2;
 
 }  // namespace
 
+double roughness_m_per_sqrt_m(const NoiseModel& noise, double wheelbase_m) {
+  return wheelbase_m * std::sqrt(noise.heading_rad2_pm / 2);
+}
+
 Eigen::Matrix3d error_transition(const Pose2& u) {
   const double c = std::cos(u.theta_rad);
   const double s = std::sin(u.theta_rad);

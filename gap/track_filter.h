@@ -18,6 +18,9 @@ struct NoiseModel {
   double clock_s = 1e-4;            ///< scatter of the moments at which poses were taken
 };
 
+/// Roughness of the floor (noise.wheel_noise_m_per_sqrt_m of a scenario) that makes the heading walk as the noise does.
+double roughness_m_per_sqrt_m(const NoiseModel& noise, double wheelbase_m);
+
 /// Errors of a track against a prediction, (along, across, heading) in the predicted robot's frame: 3 rows a sample.
 using TrackColumns = Eigen::MatrixXd;
 

@@ -58,6 +58,9 @@ TEST(WeakCause, OneToedWheelOnARoughFloor) {
   const ParameterEstimate e = estimate(d, "left_toe_rad");
   EXPECT_NEAR(e.value, 0.015, 0.15 * 0.015);
   EXPECT_TRUE(holds(e, 0.015));
+  // What the scenario believes scrubs on the same floor: with the twin's toe nothing is left.
+  const Patient again(p.recording, {effect("wheel_misalignment", {{"left_toe_rad", e.value}})});
+  EXPECT_EQ(again.diagnosed().causes.front().name, "none");
 }
 
 // One encoder that loses counts is simpler than two, and hardly differs from two of which one loses few.
