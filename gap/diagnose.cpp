@@ -113,6 +113,19 @@ void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const 
   }
 }
 
+// Of explanations that are equally good, one goes first in which no contact takes part: it is the same on any floor.
+void prefer_what_rolls(std::vector<Cause>& causes) {
+  constexpr double kEqual = 1;  // log evidence
+  const Cause& front = causes.front();
+  if (front.fit.only_rolls()) return;
+  const auto equal = std::find_if(causes.begin(), causes.end(), [&](const Cause& c) {
+    return c.fit.only_rolls() && c.fit.families.size() == front.fit.families.size() && c.score > front.score - kEqual;
+  });
+  if (equal == causes.end()) return;
+  equal->score = front.score;
+  std::rotate(causes.begin(), equal, equal + 1);
+}
+
 Stage stage_of(const Fit& fit) { return find_effect(fit.families.front().effect).stage; }
 
 void find_place(const Model& model, const Fit& fit, Diagnosis& d) {
@@ -192,6 +205,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   d.causes = ranked(fits, t);
   say("held-out runs");
   prefer_what_predicts(model, d.causes, t);
+  prefer_what_rolls(d.causes);
   say("what no effect explains");
   const double generic_none = generic_gain(model, none) + counts_left(model, none);
   const double lack_none = lack_of_fit(model, none, t);
