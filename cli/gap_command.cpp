@@ -42,8 +42,6 @@ std::string folder_name(const std::string& path) {
   return p.has_filename() ? p.filename().string() : p.parent_path().filename().string();
 }
 
-constexpr double kRoughest_m_per_sqrt_m = 0.005;  // that a scenario may have
-
 // The scenario with the diagnosed effects added; each effect once. Wheels that scrub need the floor that they scrub on.
 std::string twin_yaml(Scenario scenario, const Replay& replay, const gap::Diagnosis& d) {
   if (!d.causes.empty() && d.causes.front().name != "none" && d.causes.front().name != "unknown" &&
@@ -60,8 +58,9 @@ std::string twin_yaml(Scenario scenario, const Replay& replay, const gap::Diagno
     scenario.effects = std::move(once);
     double& roughness = scenario.noise.wheel_noise_m_per_sqrt_m;
     if (roughness == 0 && replay.scrubs(scenario.effects)) {
-      roughness = std::min(kRoughest_m_per_sqrt_m,
-                           gap::roughness_m_per_sqrt_m(d.noise, replay.recording().robot.wheelbase_m));
+      const double walk = std::sqrt(d.noise.heading_rad2_pm);
+      roughness =
+          std::min(kRoughest_m_per_sqrt_m, gap::roughness_m_per_sqrt_m(walk, replay.recording().robot.wheelbase_m));
     }
   }
   return resolved_yaml(scenario);

@@ -33,7 +33,8 @@ void show_nothing(double, const std::string&, double) {}
 
 }  // namespace
 
-GapStages::GapStages(std::size_t runs) : terminal_(isatty(2) != 0), progress_(runs, terminal_ ? show_stage : show_nothing) {}
+GapStages::GapStages(std::size_t runs)
+    : terminal_(isatty(2) != 0), progress_(runs, terminal_ ? show_stage : show_nothing) {}
 
 GapStages::~GapStages() { done(); }
 

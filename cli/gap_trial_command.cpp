@@ -9,6 +9,7 @@
 #include "experiment/planned_runs.h"
 #include "experiment/result_json.h"
 #include "experiment/run_folder.h"
+#include "gap/track_filter.h"
 #include "gap/trial/diagnose_cases.h"
 #include "gap/trial/generate.h"
 #include "gap/trial/score.h"
@@ -43,8 +44,8 @@ Recording simulate(const TrialDrive& drive) {
   s.effects = drive.effects;
   s.noise.radius_scatter = drive.radius_scatter;
   s.noise.motor_scatter = drive.motor_scatter;
-  // Both wheels roll unevenly: var(heading) = 2 k^2 / b^2 per metre.
-  s.noise.wheel_noise_m_per_sqrt_m = drive.heading_walk_rad_per_sqrt_m * drive.robot.wheelbase_m / std::sqrt(2.0);
+  s.noise.wheel_noise_m_per_sqrt_m =
+      gap::roughness_m_per_sqrt_m(drive.heading_walk_rad_per_sqrt_m, drive.robot.wheelbase_m);
   s.truth.kind = drive.planned.truth_kind;
   s.truth.position_sd_m = drive.planned.truth_position_sd_m;
   s.truth.heading_sd_rad = drive.planned.truth_heading_sd_rad;

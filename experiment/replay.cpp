@@ -141,13 +141,12 @@ bool Replay::scrubs(const std::vector<Effect>& effects) const {
 }
 
 // Poses at the encoders' samples.
-std::vector<Pose2> Replay::driven(std::size_t index, const Rig& rig, double roughness_m_per_sqrt_m) const {
+std::vector<Pose2> Replay::driven(std::size_t index, Rig r, double roughness_m_per_sqrt_m) const {
   const RecordedRun& run = recording_.runs[index];
-  Rig r = rig;
   const double step = coarse_step(r);
   r.encoders.ticks_per_revolution = recording_.robot.ticks_per_revolution;
-  // The ticks already say what the motors did, and where their torque ended: the shafts turn as counted. A wheel without
-  // a motor still has none.
+  // The ticks already say what the motors did, and where their torque ended: the shafts turn as counted. A wheel
+  // without a motor still has none.
   constexpr double kAnyTorque_nm = 1e6;
   for (Motor& m : r.drivetrain.motor) {
     if (m.torque_limit_nm > 0) m.torque_limit_nm = kAnyTorque_nm;

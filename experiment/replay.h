@@ -25,10 +25,10 @@ class Replay {
   const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }
 
   /// Absolute poses at the times of the run's truth. The start is where odometry lies best on the first part of the
-  /// track. `roughness_m_per_sqrt_m`: of what the wheels roll on, as noise.wheel_noise_m_per_sqrt_m of a scenario. Wheels that
-  /// scrub hold or give way with every grain of it, so that its mean effect is part of the robot's path: the run is driven
-  /// over some grains and over their mirror image, whose random errors cancel, and the mean of both is returned. Throws
-  /// RunError, InputError.
+  /// track. `roughness_m_per_sqrt_m`: of what the wheels roll on, as noise.wheel_noise_m_per_sqrt_m of a scenario.
+  /// Wheels that scrub hold or give way with every grain of it, so that its mean effect is part of the robot's path:
+  /// the run is driven over some grains and over their mirror image, whose random errors cancel, and the mean of both
+  /// is returned. Throws RunError, InputError.
   std::vector<Pose2> poses(std::size_t run, const std::vector<Effect>& effects,
                            double roughness_m_per_sqrt_m = 0) const;
 
@@ -45,7 +45,7 @@ class Replay {
 
  private:
   Rig rig(std::size_t run, const std::vector<Effect>& effects) const;
-  std::vector<Pose2> driven(std::size_t run, const Rig& rig, double roughness_m_per_sqrt_m) const;
+  std::vector<Pose2> driven(std::size_t run, Rig rig, double roughness_m_per_sqrt_m) const;
   double coarse_step(const Rig& rig) const;
   Habits asked(const Demand& demand) const;
 

@@ -120,7 +120,7 @@ NoiseChoice read_noise(const YamlValue& value) {
   n.floor_wavelength_m = map.number("floor_wavelength_m", n.floor_wavelength_m, Bounds::between(0.02, 100));
   n.radius_scatter = map.number("radius_scatter", 0, Bounds::between(0, 0.1));
   n.motor_scatter = map.number("motor_scatter", 0, Bounds::between(0, 0.1));
-  n.wheel_noise_m_per_sqrt_m = map.number("wheel_noise_m_per_sqrt_m", 0, Bounds::between(0, 0.005));
+  n.wheel_noise_m_per_sqrt_m = map.number("wheel_noise_m_per_sqrt_m", 0, Bounds::between(0, kRoughest_m_per_sqrt_m));
   map.finish();
   return n;
 }

@@ -50,6 +50,8 @@ struct BumpChoice {
   bool any() const { return laid.count > 0 || !fixed.empty(); }
 };
 
+constexpr double kRoughest_m_per_sqrt_m = 0.005;  ///< noise.wheel_noise_m_per_sqrt_m at most
+
 /// What differs from run to run. All zero: every run of a direction is the same.
 struct NoiseChoice {
   double floor_rms_m = 0;           ///< root mean square height of an uneven floor, a new place on it for each run

@@ -20,8 +20,8 @@ void add_what_counts_show(const Model& model, const Fit& none, const Thresholds&
 /// likeliest single effect that is too small; else the first cause with the likeliest effect more.
 void add_doubtful(const std::vector<Fit>& doubtful, const Fit& none, Diagnosis& d);
 
-/// Adds the single effect that shows most where none is named and nothing else is in the set: smaller than anything that
-/// these runs can prove.
+/// Adds the single effect that shows most where none is named and nothing else is in the set: smaller than anything
+/// that these runs can prove.
 void add_faint(const std::string& effect, Diagnosis& d);
 
 }  // namespace umbsim::gap

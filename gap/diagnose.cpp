@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "gap/addition.h"
 #include "gap/answer_set.h"
 #include "gap/closure.h"
 #include "gap/evidence.h"
 #include "gap/generic.h"
 #include "gap/not_fitted.h"
+#include "gap/ranking.h"
 #include "gap/search.h"
 #include "gap/track_misfit.h"
 #include "gap/where.h"
@@ -17,59 +16,7 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr double kAsGood = 1.001;       // held-out error of a combination, over that of something simpler
 constexpr double kWorthKnowing = 0.05;  // what effects explain, over the misfit that they leave
-constexpr double kOverconfidence = 2;   // evidence is divided by this before it becomes probability
-
-// The best fit of every name, best first.
-std::vector<Cause> ranked(const std::vector<Fit>& fits, const Thresholds& t) {
-  std::map<std::string, Cause> best;
-  const double none = fits.front().log_evidence;
-  for (const Fit& fit : fits) {
-    const double score = fit.log_evidence - none - t.effect_cost * double(fit.families.size());
-    const auto [found, fresh] = best.try_emplace(fit.name(), Cause{fit.name(), fit, score, 0});
-    if (!fresh && score > found->second.score) found->second = Cause{fit.name(), fit, score, 0};
-  }
-  for (const Fit& fit : fits) {
-    Cause& cause = best.at(fit.name());
-    const auto variant = [](const Fit& f) {
-      std::vector<std::string> names;
-      for (const Family& family : f.families) names.push_back(family.effect + family.variant);
-      return names;
-    };
-    const bool near = fit.log_evidence > cause.fit.log_evidence - t.variant;
-    if (near && variant(fit) != variant(cause.fit)) cause.variants.push_back(fit);
-  }
-  std::vector<Cause> causes;
-  for (auto& [name, cause] : best) causes.push_back(std::move(cause));
-  std::stable_sort(causes.begin(), causes.end(), [](const Cause& a, const Cause& b) { return a.score > b.score; });
-  return causes;
-}
-
-void give_probabilities(std::vector<Cause>& causes) {
-  double best = -1e300;
-  for (const Cause& c : causes) best = std::max(best, c.score);
-  double sum = 0;
-  for (Cause& c : causes) sum += c.probability = std::exp((c.score - best) / kOverconfidence);
-  for (Cause& c : causes) c.probability /= sum;
-}
-
-// Combinations that bring too little over anything simpler are dropped: each further effect has to pay.
-std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, const Thresholds& t) {
-  const Fit none = fits.front();
-  std::stable_sort(fits.begin(), fits.end(),
-                   [](const Fit& a, const Fit& b) { return a.families.size() < b.families.size(); });
-  std::vector<Fit> kept;
-  for (Fit& fit : fits) {
-    const bool worthwhile = std::all_of(kept.begin(), kept.end(), [&](const Fit& simpler) {
-      if (simpler.families.empty()) return true;
-      const double extra = double(fit.families.size()) - double(simpler.families.size());
-      return extra <= 0 || pays(model, simpler, fit, addition_needed(model, simpler, none, t), extra);
-    });
-    if (worthwhile) kept.push_back(std::move(fit));
-  }
-  return kept;
-}
 
 // What the tracks stray beyond noise and nuisances, as log evidence for something else, as long as the noise is known
 // from repeated runs.
@@ -93,37 +40,6 @@ double sudden_left(const Model& model, const Fit& fit, const Thresholds& t) {
 // it was taken for, but no gap is found by it.
 double late_left(const Model& model, const Fit& fit, const Thresholds& t) {
   return std::max(0.0, late_gain(model, fit) - t.late);
-}
-
-// A combination that predicts held-out runs worse than something simpler gives way to it, unless counts and commands
-// tell it from that: they show what moves no track.
-void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const Thresholds& t) {
-  while (causes.front().fit.families.size() > 1) {
-    const Cause& front = causes.front();
-    const double counts = model.counts_misfit(front.fit.predicted);
-    const auto simpler = std::find_if(causes.begin(), causes.end(), [&](const Cause& c) {
-      return !c.fit.families.empty() && c.fit.families.size() < front.fit.families.size() &&
-             model.counts_misfit(c.fit.predicted) < counts + 2 * t.addition;
-    });
-    if (simpler == causes.end()) return;
-    const Closure with = held_out_closure(model, front.fit);
-    const Closure without = held_out_closure(model, simpler->fit);
-    if (!with.known || with.after_mm <= kAsGood * without.after_mm) return;
-    causes.erase(causes.begin());
-  }
-}
-
-// Of explanations that are equally good, one goes first in which no contact takes part: it is the same on any floor.
-void prefer_what_rolls(std::vector<Cause>& causes) {
-  constexpr double kEqual = 1;  // log evidence
-  const Cause& front = causes.front();
-  if (front.fit.only_rolls()) return;
-  const auto equal = std::find_if(causes.begin(), causes.end(), [&](const Cause& c) {
-    return c.fit.only_rolls() && c.fit.families.size() == front.fit.families.size() && c.score > front.score - kEqual;
-  });
-  if (equal == causes.end()) return;
-  equal->score = front.score;
-  std::rotate(causes.begin(), equal, equal + 1);
 }
 
 Stage stage_of(const Fit& fit) { return find_effect(fit.families.front().effect).stage; }

@@ -12,34 +12,34 @@ namespace umbsim::gap {
 
 /// What the decisions rest on. Tuned on data of its own (docs/gap.md), not on what is diagnosed.
 struct Thresholds {
-  double detect = 8;        ///< log evidence that a gap needs
-  double effect_cost = 3;   ///< prior log odds against each further effect
-  double addition = 10;     ///< log evidence that a further effect needs,
-  double addition_share = 0.001;  ///< and the same as a share of what the others gained,
-  double misfit_share = 0.05;     ///< and of the excess of the residual that the others leave,
-  double local_misfit_share = 0.2; ///< the same of a place or moment;
-  double counts_share = 0.015;    ///< or, of what counts and habits gain, a share of what they gained before
-  double counts_misfit_share = 0.2; ///< and of what they miss
-  double smallest = 0.25;   ///< displacement, in noise floors, below which an effect is a difference of engines,
-  double least_seen = 0.15; ///< if it is also below this share of the noise of single readings
-  double smallest_addition = 0.5; ///< as `smallest`, of a further effect
-  double noise_error = 0.1; ///< a misfit larger by this share is no news: three sd of two pairs of repeats
-  double variant = 8;       ///< log evidence within which another wheel of the same effect may take part
-  double tie = 6;           ///< log evidence within which two explanations are not told apart
-  double known_share = 0.93; ///< of the explainable evidence that named effects must explain, or the cause is unknown
-  double known_share_of_toe = 0.7; ///< the same of toed wheels, whose scrub depends on tyres that nobody knows
-  double known_share_of_rolling = 0.99; ///< the same of what follows from rolling and counting, whatever the contact,
-  double left_by_rolling = 12; ///< where this much log evidence is left
-  double least_closure = 0.3; ///< that the held-out closure's interval must reach,
-  double most_left = 0.5;   ///< where what is explained is less than this share of what is left
-  double misfit_left = 0.68; ///< of the misfit beyond the noise, above which the cause is unknown, too
-  double sudden = 40;       ///< log evidence of something sudden, at a place or a moment, that a difference of engines makes,
-  double late = 150;        ///< and the same of readings that do not go with the counts
-  double sudden_or_late_left = 0.5; ///< share of what is explained that may be left of these
-  double faint = 0.05;      ///< p-value of a single effect, below which it is in the set beside "none"
-  double plainly_shown = 100; ///< log evidence of counts and commands that leaves no doubt
-  double beside_floor = 0.05; ///< share of the misfit that an effect beside an uneven floor must explain
-  double place_beside_floor = 0.3; ///< the same of a place or moment
+  double detect = 8;                 ///< log evidence that a gap needs
+  double effect_cost = 3;            ///< prior log odds against each further effect
+  double addition = 10;              ///< log evidence that a further effect needs,
+  double addition_share = 0.001;     ///< and the same as a share of what the others gained,
+  double misfit_share = 0.05;        ///< and of the excess of the residual that the others leave,
+  double local_misfit_share = 0.2;   ///< the same of a place or moment;
+  double counts_share = 0.015;       ///< or, of what counts and habits gain, a share of what they gained before
+  double counts_misfit_share = 0.2;  ///< and of what they miss
+  double smallest = 0.25;          ///< displacement, in noise floors, below which an effect is a difference of engines,
+  double least_seen = 0.15;        ///< if it is also below this share of the noise of single readings
+  double smallest_addition = 0.5;  ///< as `smallest`, of a further effect
+  double noise_error = 0.1;        ///< a misfit larger by this share is no news: three sd of two pairs of repeats
+  double variant = 8;              ///< log evidence within which another wheel of the same effect may take part
+  double tie = 6;                  ///< log evidence within which two explanations are not told apart
+  double known_share = 0.93;  ///< of the explainable evidence that named effects must explain, or the cause is unknown
+  double known_share_of_toe = 0.7;       ///< the same of toed wheels, whose scrub depends on tyres that nobody knows
+  double known_share_of_rolling = 0.99;  ///< the same of what follows from rolling and counting, whatever the contact,
+  double left_by_rolling = 12;           ///< where this much log evidence is left
+  double least_closure = 0.3;            ///< that the held-out closure's interval must reach,
+  double most_left = 0.5;                ///< where what is explained is less than this share of what is left
+  double misfit_left = 0.68;             ///< of the misfit beyond the noise, above which the cause is unknown, too
+  double sudden = 40;  ///< log evidence of what is sudden, at a place or a moment, that a difference of engines makes,
+  double late = 150;   ///< and the same of readings that do not go with the counts
+  double sudden_or_late_left = 0.5;  ///< share of what is explained that may be left of these
+  double faint = 0.05;               ///< p-value of a single effect, below which it is in the set beside "none"
+  double plainly_shown = 100;        ///< log evidence of counts and commands that leaves no doubt
+  double beside_floor = 0.05;        ///< share of the misfit that an effect beside an uneven floor must explain
+  double place_beside_floor = 0.3;   ///< the same of a place or moment
   int most_effects = 3;
 };
 
@@ -50,10 +50,10 @@ double may_be_left(const Fit& fit, double explained, const Thresholds& threshold
 struct Cause {
   std::string name;
   Fit fit;
-  double score = 0;        ///< log evidence with prior costs, against none
+  double score = 0;  ///< log evidence with prior costs, against none
   double probability = 0;
-  double squared_error_drop = 0;  ///< share of the recorded tracks' squared position error that it removes
-  std::vector<Fit> variants = {}; ///< of the same effects with other numbers free, and nearly as much evidence
+  double squared_error_drop = 0;   ///< share of the recorded tracks' squared position error that it removes
+  std::vector<Fit> variants = {};  ///< of the same effects with other numbers free, and nearly as much evidence
 };
 
 /// The effects of a fit that can be simulated: without those of which only the strength is known.
@@ -73,12 +73,12 @@ struct SegmentScore {
 /// Held-out closure: every condition predicted with parameters fitted on the others.
 struct Closure {
   bool known = false;
-  double fraction = 0;       ///< 1 - (after - floor) / (before - floor), mean squares of position, unclipped
-  double ci95[2] = {0, 0};   ///< bootstrap over runs
-  double before_mm = 0;      ///< root mean square position error along the held-out runs
+  double fraction = 0;      ///< 1 - (after - floor) / (before - floor), mean squares of position, unclipped
+  double ci95[2] = {0, 0};  ///< bootstrap over runs
+  double before_mm = 0;     ///< root mean square position error along the held-out runs
   double after_mm = 0;
-  double floor_mm = 0;       ///< of the run-to-run noise
-  double before_deg = 0;     ///< root mean square heading error at the ends
+  double floor_mm = 0;    ///< of the run-to-run noise
+  double before_deg = 0;  ///< root mean square heading error at the ends
   double after_deg = 0;
 };
 
@@ -90,20 +90,20 @@ struct Diagnosis {
   std::vector<SegmentScore> segments;
   bool has_place = false;
   double place_m[2] = {0, 0};
-  std::vector<Cause> causes;                ///< ranked
+  std::vector<Cause> causes;  ///< ranked
   std::vector<std::string> set;
   std::vector<std::vector<std::string>> indistinguishable;
   bool unexplained = false;
   double unexplained_p = 1;
-  std::string left_over;                    ///< description, empty if nothing is left
+  std::string left_over;  ///< description, empty if nothing is left
   Closure closure;
-  bool twin_is_nominal = false;             ///< nothing found that would foretell other runs
-  NoiseModel noise;                         ///< as estimated from the runs
+  bool twin_is_nominal = false;  ///< nothing found that would foretell other runs
+  NoiseModel noise;              ///< as estimated from the runs
   double noise_floor_mm = 0;
-  double before_mm = 0;                     ///< root mean square position error of the scenario as it was
-  double explainable_fraction = 0;          ///< of the evidence for a gap, what the first cause takes
-  double overdispersion = 1;                ///< residual variance of the first cause's fit, over the noise model's
-  std::vector<std::string> limits;          ///< what makes the answer smaller, in words
+  double before_mm = 0;             ///< root mean square position error of the scenario as it was
+  double explainable_fraction = 0;  ///< of the evidence for a gap, what the first cause takes
+  double overdispersion = 1;        ///< residual variance of the first cause's fit, over the noise model's
+  std::vector<std::string> limits;  ///< what makes the answer smaller, in words
   double simulated_s = 0;
 };
 

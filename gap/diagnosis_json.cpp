@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kDraws = 2000;
 // What a replay is off by that no residual shows, standard deviations, from development trials (docs/gap.md).
 constexpr double kReplayShare = 0.03;  // of a size, against its neutral value
-constexpr double kScrubShare = 0.08;   // of toe: how rough the floor is, which lets the wheels slip, is known to a fifth
+constexpr double kScrubShare = 0.08;   // of toe: the floor's roughness, which lets the wheels slip, is known to a fifth
 constexpr double kReplayAngle_rad = 0.01;
 constexpr double kReplayPlace_m = 0.005;
 constexpr double kReplayMoment_s = 0.01;

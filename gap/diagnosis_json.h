@@ -19,8 +19,8 @@ struct ParameterEstimate {
 };
 std::vector<ParameterEstimate> parameter_estimates(const Fit& fit, double overdispersion);
 
-/// The same of a cause: the values of its fit, with intervals that hold those of its variants, too. A number that the fit
-/// keeps neutral and a variant sets free is listed with its neutral value.
+/// The same of a cause: the values of its fit, with intervals that hold those of its variants, too. A number that the
+/// fit keeps neutral and a variant sets free is listed with its neutral value.
 std::vector<ParameterEstimate> parameter_estimates(const Cause& cause, double overdispersion);
 
 }  // namespace umbsim::gap

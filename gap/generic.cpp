@@ -55,8 +55,8 @@ Eigen::MatrixXd habit_columns(const Model& model, std::size_t r, const std::vect
   return columns;
 }
 
-// What was seen and what was counted at different moments, beyond one clock's offset: errors that go with the speed, and
-// with its first and second difference from sample to sample, along the way and of the heading.
+// What was seen and what was counted at different moments, beyond one clock's offset: errors that go with the speed,
+// and with its first and second difference from sample to sample, along the way and of the heading.
 Eigen::MatrixXd late_columns(const Model& model, std::size_t r) {
   const std::vector<Eigen::Vector3d>& velocity = model.nominal().velocity[r];
   const std::size_t n = model.filter(r).samples();
@@ -167,7 +167,8 @@ double density_of(const Model& model, const std::vector<RunGram>& grams, const E
   return evidence(grams, model.all_runs(), first_columns(sd.size()), sd).log_density;
 }
 
-// Log evidence for columns that all runs share, given for each run and with the sizes that they may have, on top of a fit.
+// Log evidence for columns that all runs share, given for each run and with the sizes that they may have, on top of a
+// fit.
 double gain_of(const Model& model, const Fit& fit, const std::function<Eigen::MatrixXd(std::size_t)>& raw,
                const Eigen::VectorXd& sizes) {
   const std::size_t runs = model.recording().runs.size();
@@ -184,12 +185,13 @@ double gain_of(const Model& model, const Fit& fit, const std::function<Eigen::Ma
 }  // namespace
 
 double steady_gain(const Model& model, const Fit& fit) {
-  return gain_of(model, fit, [&](std::size_t r) { return raw_columns(model, r).habits; }, habits_sd());
+  return gain_of(
+      model, fit, [&](std::size_t r) { return raw_columns(model, r).habits; }, habits_sd());
 }
 
 double late_gain(const Model& model, const Fit& fit) {
-  return gain_of(model, fit, [&](std::size_t r) { return late_columns(model, r); },
-                 Eigen::VectorXd::Constant(kLate, kLate_s));
+  return gain_of(
+      model, fit, [&](std::size_t r) { return late_columns(model, r); }, Eigen::VectorXd::Constant(kLate, kLate_s));
 }
 
 double generic_gain(const Model& model, const Fit& fit) {

@@ -16,8 +16,8 @@ double generic_gain(const Model& model, const Fit& fit);
 /// the floor, radii that change from run to run.
 double steady_gain(const Model& model, const Fit& fit);
 
-/// Log evidence that the tracker saw the robot at other moments than its wheels were counted, in another way than by one
-/// clock's offset.
+/// Log evidence that the tracker saw the robot at other moments than its wheels were counted, in another way than by
+/// one clock's offset.
 double late_gain(const Model& model, const Fit& fit);
 
 }  // namespace umbsim::gap

@@ -46,6 +46,10 @@ bool Fit::only_rolls() const {
   return std::all_of(families.begin(), families.end(), [](const Family& f) { return gap::only_rolls(f.effect); });
 }
 
+bool Fit::is_local() const {
+  return std::any_of(families.begin(), families.end(), [](const Family& f) { return f.search_cost > 0; });
+}
+
 Model::Model(const Recording& recording, Simulator simulator, const Scatter& scatter,
              const std::optional<NoiseModel>& known)
     : recording_(recording), simulator_(std::move(simulator)), scatter_(scatter) {
@@ -77,7 +81,7 @@ Model::Model(const Recording& recording, Simulator simulator, const Scatter& sca
 // Each grain of a floor makes wheels that scrub hold or give way. It moves no other robot's mean path.
 double Model::roughness_under(const std::vector<Effect>& effects) const {
   if (!simulator_.scrubs || !simulator_.scrubs(effects)) return 0;
-  return roughness_m_per_sqrt_m(noise_, recording_.robot.wheelbase_m);
+  return roughness_m_per_sqrt_m(std::sqrt(noise_.heading_rad2_pm), recording_.robot.wheelbase_m);
 }
 
 std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& sets) const {

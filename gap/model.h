@@ -52,6 +52,7 @@ struct Fit {
   std::vector<Effect> effects() const;
   std::string name() const;    ///< effects joined by "+", in alphabetical order
   bool only_rolls() const;     ///< all of its effects do
+  bool is_local() const;       ///< one of them is at a place or a moment
 };
 
 /// A recording seen through the simulator: residuals, nuisances, noise, and the evidence for any combination of

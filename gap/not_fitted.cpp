@@ -18,9 +18,7 @@ std::optional<Fit> with_uneven_floor(const Model& model, const Fit& none, const 
   // The same shifts of many passes pretend to be many numbers: an effect beside the floor has to explain a good share.
   const double explained = best.log_evidence - none.log_evidence;
   // A place is part of the floor, unless it is far more than the rest.
-  const auto is_local = [](const Family& f) { return f.search_cost > 0; };
-  const bool local = std::any_of(best.families.begin(), best.families.end(), is_local);
-  const double share = local ? t.place_beside_floor : t.beside_floor;
+  const double share = best.is_local() ? t.place_beside_floor : t.beside_floor;
   const bool stays = explained > share * (explained + lack);
   const Fit& beside = stays ? best : none;
   const auto floor = find_uneven_floor(model, beside);

@@ -144,7 +144,7 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
   const Kicks kicks = find_kicks(model_, fit);
   const double R = model_.recording().robot.wheel_radius_m;
   // Two local events at once are not looked for: the second would mend the first one's shape.
-  if (std::any_of(fit.families.begin(), fit.families.end(), [](const Family& g) { return g.search_cost > 0; })) return;
+  if (fit.is_local()) return;
   const auto offer = [&](Family family, const Starts& starts, const std::vector<double>& reach, int climbs,
                          double gain) {
     if (excluded_.count(family.effect) > 0) return;
@@ -160,8 +160,8 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
       const double height_m = std::clamp(0.5 * std::pow(3 * std::sqrt(R) * k.lost_m, 2.0 / 3), 0.001, 0.02);
       std::vector<double> heights;
       for (const double share : {0.5, 0.7, 1.0, 1.4, 2.0}) heights.push_back(std::clamp(share * height_m, 0.001, 0.02));
-      offer(bump_family(k.x_m, k.y_m, k.heading_rad), all_of({heights, {-0.03, -0.015, 0, 0.015, 0.03}}), {0.002, 0.02}, 2,
-            k.gain);
+      offer(bump_family(k.x_m, k.y_m, k.heading_rad), all_of({heights, {-0.03, -0.015, 0, 0.015, 0.03}}), {0.002, 0.02},
+            2, k.gain);
     }
     // A few per cent of length, or of friction, decide how far a wheel gets that pulls against the other in a corner. A
     // short lift is felt where it lies under a wheel's track, and the kick tells its place to some centimetres only.

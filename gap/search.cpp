@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 
 #include "core/error.h"
 #include "gap/addition.h"
+#include "gap/climb.h"
 #include "gap/noise_floor.h"
-#include "gap/pattern_search.h"
 
 namespace umbsim::gap {
 namespace {
@@ -29,74 +28,6 @@ constexpr double kLocalHint = 0.25;    // and the same of places and moments, wh
 constexpr double kWorthAClimb = 0.1;   // of what the best single effect explains, the same of the best start
 constexpr double kPartOfNeeded = 0.25; // of what a further effect must bring, the same of its best start
 constexpr double kDoubtful = 0.3;  // of what a further effect must bring
-constexpr double kFirstStep = 0.4;  // of a number, where a search begins
-constexpr int kHalvings = 4;
-constexpr int kMostTries = 110;  // simulations of all runs in the search for a place
-
-// How well a candidate's numbers do on top of `base`.
-std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, const Fit& base, const Family& family) {
-  std::vector<Family> families = base.families;
-  families.push_back(family);
-  return [&model, families, p = base.p](const Eigen::VectorXd& numbers) {
-    Eigen::VectorXd all(p.size() + numbers.size());
-    all << p, numbers;
-    try {
-      return model.density_at(families, all);
-    } catch (const RunError&) {
-      return -1e300;
-    } catch (const InputError&) {
-      return -1e300;  // it does not stand at its start, on a cable or without a wheel's floor
-    }
-  };
-}
-
-// The candidate with the best few of its starts alone, best first. Returns the best one's log density.
-double keep_best_starts(const Model& model, const Fit& base, Screen::Candidate& c) {
-  if (c.starts.empty()) return -1e300;
-  const auto density = density_on(model, base, c.family);
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < c.starts.size(); ++i) order.push_back({-density(c.starts[i]), i});
-  const std::size_t few = std::min(order.size(), std::size_t(c.climbs));
-  std::partial_sort(order.begin(), order.begin() + std::ptrdiff_t(few), order.end());
-  std::vector<Eigen::VectorXd> best;
-  for (std::size_t i = 0; i < few; ++i) best.push_back(c.starts[order[i].second]);
-  c.starts = std::move(best);
-  return -order.front().first;
-}
-
-// The top of the hill from one start.
-Eigen::VectorXd climbed(const std::function<double(const Eigen::VectorXd&)>& density, const Screen::Candidate& c,
-                        const Eigen::VectorXd& start) {
-  Eigen::VectorXd reach = c.reach;
-  Eigen::VectorXd min(start.size());
-  Eigen::VectorXd max(start.size());
-  for (Eigen::Index i = 0; i < start.size(); ++i) {
-    if (start[i] != 0) reach[i] = std::min(reach[i], kFirstStep * std::abs(start[i]));
-    min[i] = c.family.parameters[std::size_t(i)].min;
-    max[i] = c.family.parameters[std::size_t(i)].max;
-  }
-  return pattern_search(density, start, reach, min, max, kHalvings, kMostTries);
-}
-
-// Numbers of the candidate's family with which a fit on top of `base` begins: the highest of several hills. Nothing where
-// the best start is below `least` of log density: a climb takes many simulations.
-std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& base, Screen::Candidate c, double least) {
-  if (c.starts.empty()) c.starts = {c.start};
-  if (c.starts.size() > std::size_t(c.climbs)) keep_best_starts(model, base, c);
-  if (c.reach.size() == 0) return c.starts.front();
-  const auto density = density_on(model, base, c.family);
-  if (c.starts.size() > 1 && density(c.starts.front()) < least) return std::nullopt;
-  double highest = -1e301;
-  Eigen::VectorXd best;
-  for (const Eigen::VectorXd& start : c.starts) {
-    const Eigen::VectorXd top = climbed(density, c, start);
-    const double there = density(top);
-    if (there <= highest) continue;
-    highest = there;
-    best = top;
-  }
-  return best;
-}
 
 // Nothing is left but noise, as well as it is known.
 bool explains_all(const Model& model, const Fit& fit, const Thresholds& t) {
@@ -126,9 +57,6 @@ class Search {
   }
 
  private:
-  static bool is_local(const Fit& fit) {
-    return std::any_of(fit.families.begin(), fit.families.end(), [](const Family& f) { return f.search_cost > 0; });
-  }
   static bool less_evidence(const Fit& a, const Fit& b) { return a.log_evidence < b.log_evidence; }
 
   std::optional<Fit> tried(const Fit& base, const Screen::Candidate& c, double least) {
@@ -216,7 +144,7 @@ class Search {
     const bool second_is_idle = explains_all(model_, from[0], thresholds_) &&
                                 from[1].log_evidence < from[0].log_evidence - kFarBehind;
     // Two explanations of what happened at one place or moment are not two.
-    if (second_is_idle || (is_local(from[0]) && is_local(from[1]))) from.resize(1);
+    if (second_is_idle || (from[0].is_local() && from[1].is_local())) from.resize(1);
     return from;
   }
 

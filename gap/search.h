@@ -21,7 +21,8 @@ class Screen {
     Eigen::VectorXd reach;                ///< first steps of a search from the best of them; empty: none
     int climbs = 1;                       ///< from how many of the best of them
     double gain = 0;  ///< log evidence expected on top of the fit
-    double p_value = 1;  ///< of its numbers against none, were it the only effect asked about (chi-squared); 1 where a family bends
+    /// Of its numbers against none, were it the only effect asked about (chi-squared); 1 where a family bends.
+    double p_value = 1;
   };
   /// Families that could explain what `fit` leaves, best first; local ones (places, moments) are searched for anew.
   std::vector<Candidate> on_top_of(const Fit& fit) const;

@@ -19,11 +19,10 @@ struct CacheChoice {
 /// $XDG_CACHE_HOME/umbsim/signatures, else ~/.cache/umbsim/signatures; none without either.
 std::optional<std::filesystem::path> user_cache_folder();
 
-/// The same simulator, which reads what an earlier call of the program simulated (within one, gap/remembered.h does). What
-/// it returns is the same bytes as without.
-/// `identity`: everything but the recording that the tracks depend on: program, robot, scenario.
-/// A file is written beside and renamed, and read only if its checksum is right, so several processes may share a
-/// folder and a broken file is computed again. A folder that cannot be written is done without.
+/// The same simulator, which reads what an earlier call of the program simulated (within one, gap/remembered.h does).
+/// What it returns is the same bytes as without. `identity`: everything but the recording that the tracks depend on:
+/// program, robot, scenario. A file is written beside and renamed, and read only if its checksum is right, so several
+/// processes may share a folder and a broken file is computed again. A folder that cannot be written is done without.
 Simulator cached(Simulator simulator, const Recording& recording, const std::string& identity,
                  const CacheChoice& choice);
 

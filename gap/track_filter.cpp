@@ -13,8 +13,8 @@ constexpr double kStart_rad = 0.2;
 
 }  // namespace
 
-double roughness_m_per_sqrt_m(const NoiseModel& noise, double wheelbase_m) {
-  return wheelbase_m * std::sqrt(noise.heading_rad2_pm / 2);
+double roughness_m_per_sqrt_m(double heading_walk_rad_per_sqrt_m, double wheelbase_m) {
+  return heading_walk_rad_per_sqrt_m * wheelbase_m / std::sqrt(2.0);
 }
 
 Eigen::Matrix3d error_transition(const Pose2& u) {

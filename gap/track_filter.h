@@ -1,8 +1,7 @@
 #pragma once
 
-#include <vector>
-
 #include <Eigen/Core>
+#include <vector>
 
 #include "recording/recording.h"
 
@@ -15,11 +14,12 @@ struct NoiseModel {
   double across_m2_pm = 1e-9;       ///< sideways, m^2/m
   double position_sd_m = 3e-4;      ///< of one absolute position, with the encoder's rounding
   double heading_sd_rad = 3e-4;
-  double clock_s = 1e-4;            ///< scatter of the moments at which poses were taken
+  double clock_s = 1e-4;  ///< scatter of the moments at which poses were taken
 };
 
-/// Roughness of the floor (noise.wheel_noise_m_per_sqrt_m of a scenario) that makes the heading walk as the noise does.
-double roughness_m_per_sqrt_m(const NoiseModel& noise, double wheelbase_m);
+/// Roughness k of the floor (noise.wheel_noise_m_per_sqrt_m of a scenario) that makes the heading walk by this much:
+/// with both wheels' paths varying by k^2 per metre, its variance is 2 k^2 / b^2.
+double roughness_m_per_sqrt_m(double heading_walk_rad_per_sqrt_m, double wheelbase_m);
 
 /// Errors of a track against a prediction, (along, across, heading) in the predicted robot's frame: 3 rows a sample.
 using TrackColumns = Eigen::MatrixXd;
@@ -62,7 +62,7 @@ class TrackFilter {
   struct Step {
     Eigen::Matrix3d transition;  ///< of the error, from the sample before
     Eigen::Matrix3d gain;
-    Eigen::Matrix3d whitener;    ///< inverse Cholesky factor of the innovation's covariance
+    Eigen::Matrix3d whitener;  ///< inverse Cholesky factor of the innovation's covariance
   };
   std::vector<Step> steps_;
   double log_det_ = 0;

@@ -102,7 +102,9 @@ double mean_distance_m(const Replay& replay, const std::vector<Effect>& effects,
   for (std::size_t r = 0; r < recording.runs.size(); ++r) {
     const std::vector<Pose2> track = replay.poses(r, effects, roughness_m_per_sqrt_m);
     double most = 0;
-    for (std::size_t k = 0; k < track.size(); ++k) most = std::max(most, distance_m(track[k], recording.runs[r].truth[k].X_WB));
+    for (std::size_t k = 0; k < track.size(); ++k) {
+      most = std::max(most, distance_m(track[k], recording.runs[r].truth[k].X_WB));
+    }
     sum += most;
   }
   return sum / double(recording.runs.size());

@@ -1,7 +1,6 @@
 // Causes that a search finds only where it looks closely, and numbers that a recording hardly tells.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <iostream>
@@ -20,8 +19,8 @@ using testing::Patient;
 ParameterEstimate estimate(const Diagnosis& d, const std::string& parameter) {
   for (const ParameterEstimate& e : parameter_estimates(d.causes.front(), d.overdispersion)) {
     if (e.parameter != parameter) continue;
-    std::cout << fmt::format("{}: {} {:.5g} [{:.5g}, {:.5g}] {}\n", d.causes.front().name, parameter, e.value, e.ci95[0],
-                             e.ci95[1], e.unit);
+    std::cout << fmt::format("{}: {} {:.5g} [{:.5g}, {:.5g}] {}\n", d.causes.front().name, parameter, e.value,
+                             e.ci95[0], e.ci95[1], e.unit);
     return e;
   }
   ADD_FAILURE() << d.causes.front().name << " has no " << parameter;

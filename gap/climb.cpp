@@ -1,0 +1,82 @@
+#include "gap/climb.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "core/error.h"
+#include "gap/pattern_search.h"
+
+namespace umbsim::gap {
+namespace {
+
+constexpr double kFirstStep = 0.4;  // of a number, where a search begins
+constexpr int kHalvings = 4;
+constexpr int kMostTries = 110;  // simulations of all runs in the search for a place
+
+// How well a candidate's numbers do on top of `base`.
+std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, const Fit& base, const Family& family) {
+  std::vector<Family> families = base.families;
+  families.push_back(family);
+  return [&model, families, p = base.p](const Eigen::VectorXd& numbers) {
+    Eigen::VectorXd all(p.size() + numbers.size());
+    all << p, numbers;
+    try {
+      return model.density_at(families, all);
+    } catch (const RunError&) {
+      return -1e300;
+    } catch (const InputError&) {
+      return -1e300;  // it does not stand at its start, on a cable or without a wheel's floor
+    }
+  };
+}
+
+// The top of the hill from one start.
+Eigen::VectorXd climbed(const std::function<double(const Eigen::VectorXd&)>& density, const Screen::Candidate& c,
+                        const Eigen::VectorXd& start) {
+  Eigen::VectorXd reach = c.reach;
+  Eigen::VectorXd min(start.size());
+  Eigen::VectorXd max(start.size());
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    if (start[i] != 0) reach[i] = std::min(reach[i], kFirstStep * std::abs(start[i]));
+    min[i] = c.family.parameters[std::size_t(i)].min;
+    max[i] = c.family.parameters[std::size_t(i)].max;
+  }
+  return pattern_search(density, start, reach, min, max, kHalvings, kMostTries);
+}
+
+}  // namespace
+
+double keep_best_starts(const Model& model, const Fit& base, Screen::Candidate& c) {
+  const auto density = density_on(model, base, c.family);
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < c.starts.size(); ++i) order.push_back({-density(c.starts[i]), i});
+  const std::size_t few = std::min(order.size(), std::size_t(c.climbs));
+  std::partial_sort(order.begin(), order.begin() + std::ptrdiff_t(few), order.end());
+  std::vector<Eigen::VectorXd> best;
+  for (std::size_t i = 0; i < few; ++i) best.push_back(c.starts[order[i].second]);
+  c.starts = std::move(best);
+  return -order.front().first;
+}
+
+std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& base, Screen::Candidate c, double least) {
+  if (c.starts.empty()) c.starts = {c.start};
+  if (c.starts.size() > std::size_t(c.climbs)) keep_best_starts(model, base, c);
+  if (c.reach.size() == 0) return c.starts.front();
+  const auto density = density_on(model, base, c.family);
+  // One hill alone is climbed always: where grip is missing the best start says little of its top.
+  if (c.starts.size() > 1 && density(c.starts.front()) < least) return std::nullopt;
+  double highest = -1e301;
+  Eigen::VectorXd best;
+  for (const Eigen::VectorXd& start : c.starts) {
+    const Eigen::VectorXd top = climbed(density, c, start);
+    const double there = density(top);
+    if (there <= highest) continue;
+    highest = there;
+    best = top;
+  }
+  return best;
+}
+
+}  // namespace umbsim::gap
