@@ -84,4 +84,13 @@ Rig apply_effects(const std::vector<Effect>& effects, Rig rig) {
   return rig;
 }
 
+std::string bytes_of(const std::vector<Effect>& effects) {
+  std::string bytes;
+  for (const Effect& e : effects) {
+    bytes += e.info->name + '\0' + e.values.run + '\0';
+    bytes.append(reinterpret_cast<const char*>(e.values.numbers.data()), e.values.numbers.size() * sizeof(double));
+  }
+  return bytes;
+}
+
 }  // namespace umbsim

@@ -72,6 +72,9 @@ std::vector<Effect> read_effects(const YamlValue& value);
 /// each other.
 std::vector<Effect> combined(std::vector<Effect> believed, const std::vector<Effect>& more);
 
+/// Effects with their values as bytes: equal for equal effects alone.
+std::string bytes_of(const std::vector<Effect>& effects);
+
 /// The rig with all effects applied, in the order of the catalogue.
 Rig apply_effects(const std::vector<Effect>& effects, Rig rig);
 

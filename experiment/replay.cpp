@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
+#include <string>
+#include <utility>
 
 #include "effects/geometry.h"
 #include "experiment/demanded.h"
@@ -17,6 +20,12 @@ namespace {
 
 // A supposed resolution within this share of what the counts show is theirs, which they show much finer.
 constexpr double kSameStep = 0.1;
+
+// At a place, or at a moment.
+bool acts_somewhere(const Effect& e) {
+  const std::string& name = e.info->name;
+  return name == "bump" || name == "slippery_patch" || name == "wheel_lift" || name == "push";
+}
 
 Pose2 between(const Pose2& a, const Pose2& b, double part) {
   return {a.x_m + part * (b.x_m - a.x_m), a.y_m + part * (b.y_m - a.y_m),
@@ -124,10 +133,9 @@ double Replay::coarse_step(const Rig& rig) const {
 
 std::vector<Pose2> Replay::poses(std::size_t index, const std::vector<Effect>& effects,
                                  double roughness_m_per_sqrt_m) const {
-  const Rig r = rig(index, effects);
-  if (roughness_m_per_sqrt_m == 0) return at_truth(recording_.runs[index], driven(index, r, 0));
-  std::vector<Pose2> track = driven(index, r, roughness_m_per_sqrt_m);
-  const std::vector<Pose2> mirrored = driven(index, r, -roughness_m_per_sqrt_m);
+  if (roughness_m_per_sqrt_m == 0) return at_truth(recording_.runs[index], driven(index, effects));
+  std::vector<Pose2> track = driven_over(index, effects, roughness_m_per_sqrt_m);
+  const std::vector<Pose2> mirrored = driven_over(index, effects, -roughness_m_per_sqrt_m);
   for (std::size_t i = 0; i < track.size(); ++i) track[i] = between(track[i], mirrored[i], 0.5);
   return at_truth(recording_.runs[index], track);
 }
@@ -140,33 +148,63 @@ bool Replay::scrubs(const std::vector<Effect>& effects) const {
   return has("wheel_misalignment") && !has("tyre_creep");
 }
 
-// Poses at the encoders' samples.
-std::vector<Pose2> Replay::driven(std::size_t index, Rig r, double roughness_m_per_sqrt_m) const {
-  const RecordedRun& run = recording_.runs[index];
-  const double step = coarse_step(r);
-  r.encoders.ticks_per_revolution = recording_.robot.ticks_per_revolution;
-  // The ticks already say what the motors did, and where their torque ended: the shafts turn as counted. A wheel
-  // without a motor still has none.
+// The rig whose shafts turn as counted, whatever the motors do: the ticks already say what they did, and where their
+// torque ended. A wheel without a motor still has none.
+Rig Replay::shafts_as_counted(Rig r) const {
   constexpr double kAnyTorque_nm = 1e6;
+  r.encoders.ticks_per_revolution = recording_.robot.ticks_per_revolution;
   for (Motor& m : r.drivetrain.motor) {
     if (m.torque_limit_nm > 0) m.torque_limit_nm = kAnyTorque_nm;
     m.gain = 1;
     m.lag_s = 0;
     m.deadband_radps = 0;
   }
-  const std::vector<double> left = shaft_speeds(run, r.encoders, r.encoders.left, true, lag_s_[index], steps_, step);
-  const std::vector<double> right = shaft_speeds(run, r.encoders, r.encoders.right, false, lag_s_[index], steps_, step);
+  return r;
+}
+
+ShaftDrive Replay::shafts(std::size_t index, const Rig& supposed) const {
+  const RecordedRun& run = recording_.runs[index];
+  const double step = coarse_step(supposed);
+  EncoderSpec e = supposed.encoders;
+  e.ticks_per_revolution = recording_.robot.ticks_per_revolution;
+  return {run.encoders, shaft_speeds(run, e, e.left, true, lag_s_[index], steps_, step),
+          shaft_speeds(run, e, e.right, false, lag_s_[index], steps_, step), start_[index]};
+}
+
+// Poses at the encoders' samples.
+std::vector<Pose2> Replay::driven(std::size_t index, const std::vector<Effect>& effects) const {
+  const Rig supposed = rig(index, effects);
+  const Rig r = shafts_as_counted(supposed);
+  const std::vector<Push> pushes = timed(r.pushes, stretches_[index]);
+  World world(r.robot, r.drivetrain, r.floor, scenario_.physics, pushes);
+  const bool local = !r.floor.cables.empty() || !r.floor.patches.empty() || !pushes.empty();
+  if (!local || !same_everywhere(r.floor)) return traced(world, shafts(index, supposed)).track;
+  std::vector<Effect> elsewhere;
+  std::copy_if(effects.begin(), effects.end(), std::back_inserter(elsewhere),
+               [](const Effect& e) { return !acts_somewhere(e); });
+  const auto without = traces_->get(std::to_string(index) + '\n' + bytes_of(elsewhere), [&] {
+    Floor bare = r.floor;
+    bare.cables.clear();
+    bare.patches.clear();
+    World plain(r.robot, r.drivetrain, bare, scenario_.physics);
+    return traced(plain, shafts(index, supposed));
+  });
+  return driven_near(world, r, pushes, *without);
+}
+
+// The same over a rough floor, whole.
+std::vector<Pose2> Replay::driven_over(std::size_t index, const std::vector<Effect>& effects,
+                                       double roughness_m_per_sqrt_m) const {
+  const Rig supposed = rig(index, effects);
+  const ShaftDrive drive = shafts(index, supposed);
+  const Rig r = shafts_as_counted(supposed);
   World world(r.robot, r.drivetrain, r.floor, scenario_.physics, timed(r.pushes, stretches_[index]));
-  world.place(start_[index]);
+  world.place(drive.start);
   RollingNoise rolling(roughness_m_per_sqrt_m, r);
-  std::vector<Pose2> track;
-  track.reserve(run.encoders.size());
-  track.push_back(world.pose());
-  for (std::size_t i = 1; i < run.encoders.size(); ++i) {
-    const double period_s = run.encoders[i].time_s - run.encoders[i - 1].time_s;
-    rolling.roughen(world, {left[i], right[i]}, period_s);
-    world.command(left[i], right[i]);
-    world.advance(period_s);
+  std::vector<Pose2> track{world.pose()};
+  for (std::size_t i = 1; i < drive.samples.size(); ++i) {
+    rolling.roughen(world, {drive.left_radps[i], drive.right_radps[i]}, drive.period_s(i));
+    drive.advance(world, i);
     track.push_back(world.pose());
   }
   return track;

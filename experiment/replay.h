@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "experiment/scenario.h"
+#include "experiment/traced_run.h"
 #include "recording/habits.h"
 #include "recording/recording.h"
 #include "recording/stretches.h"
@@ -45,7 +47,11 @@ class Replay {
 
  private:
   Rig rig(std::size_t run, const std::vector<Effect>& effects) const;
-  std::vector<Pose2> driven(std::size_t run, Rig rig, double roughness_m_per_sqrt_m) const;
+  Rig shafts_as_counted(Rig rig) const;
+  ShaftDrive shafts(std::size_t run, const Rig& supposed) const;
+  std::vector<Pose2> driven(std::size_t run, const std::vector<Effect>& effects) const;
+  std::vector<Pose2> driven_over(std::size_t run, const std::vector<Effect>& effects,
+                                 double roughness_m_per_sqrt_m) const;
   double coarse_step(const Rig& rig) const;
   Habits asked(const Demand& demand) const;
 
@@ -58,6 +64,7 @@ class Replay {
   int steps_ = 1;              // of the simulator in one period of the encoders
   double count_step_ = 1;      // width of the encoders' steps, in counts of the recording
   std::vector<double> lag_s_;  // of the counts behind the commands, per run
+  std::shared_ptr<Traces> traces_ = std::make_shared<Traces>();
 };
 
 /// The scenario that a recording alone suggests: its robot, course, speeds and encoder rate.

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kFirstStep = 0.4;  // of a number, where a search begins
 constexpr int kHalvings = 4;
-constexpr int kMostTries = 110;  // simulations of all runs in the search for a place
+constexpr double kOneHill = 2.1;  // first steps, within which a worse start is on the way to the same top
+constexpr int kMostTries = 200;   // simulations of all runs in the search for a place
 
 // How well a candidate's numbers do on top of `base`.
 std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, const Fit& base, const Family& family) {
@@ -52,10 +53,16 @@ double keep_best_starts(const Model& model, const Fit& base, Screen::Candidate& 
   const auto density = density_on(model, base, c.family);
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < c.starts.size(); ++i) order.push_back({-density(c.starts[i]), i});
-  const std::size_t few = std::min(order.size(), std::size_t(c.climbs));
-  std::partial_sort(order.begin(), order.begin() + std::ptrdiff_t(few), order.end());
+  std::sort(order.begin(), order.end());
   std::vector<Eigen::VectorXd> best;
-  for (std::size_t i = 0; i < few; ++i) best.push_back(c.starts[order[i].second]);
+  for (const auto& [negative, i] : order) {
+    const Eigen::VectorXd& start = c.starts[i];
+    const bool other_hill = std::none_of(best.begin(), best.end(), [&](const Eigen::VectorXd& b) {
+      return c.reach.size() > 0 && ((start - b).cwiseAbs().array() < kOneHill * c.reach.array()).all();
+    });
+    if (other_hill) best.push_back(start);
+    if (best.size() == std::size_t(c.climbs)) break;
+  }
   c.starts = std::move(best);
   return -order.front().first;
 }
@@ -65,8 +72,7 @@ std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& bas
   if (c.starts.size() > std::size_t(c.climbs)) keep_best_starts(model, base, c);
   if (c.reach.size() == 0) return c.starts.front();
   const auto density = density_on(model, base, c.family);
-  // One hill alone is climbed always: where grip is missing the best start says little of its top.
-  if (c.starts.size() > 1 && density(c.starts.front()) < least) return std::nullopt;
+  if (!c.any_start && density(c.starts.front()) < least) return std::nullopt;
   double highest = -1e301;
   Eigen::VectorXd best;
   for (const Eigen::VectorXd& start : c.starts) {

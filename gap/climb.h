@@ -6,12 +6,12 @@
 
 namespace umbsim::gap {
 
-/// The candidate with the best few of its starts alone, best first. Returns the best one's log density on top of
-/// `base`. Throws nothing for numbers with which the robot cannot be driven: they are the worst.
+/// The candidate with the best few of its starts alone, best first, of each hill one. Returns the best one's log
+/// density on top of `base`. Throws nothing for numbers with which the robot cannot be driven: they are the worst.
 double keep_best_starts(const Model& model, const Fit& base, Screen::Candidate& candidate);
 
 /// Numbers of the candidate's family with which a fit on top of `base` begins: the highest of several hills. Nothing
-/// where there are several and the best start is below `least` of log density: a climb takes many simulations.
+/// where the best start is below `least` of log density: a climb takes many simulations.
 std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& base, Screen::Candidate candidate,
                                               double least);
 

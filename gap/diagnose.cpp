@@ -42,6 +42,14 @@ double late_left(const Model& model, const Fit& fit, const Thresholds& t) {
   return std::max(0.0, late_gain(model, fit) - t.late);
 }
 
+// As a share of what is explained. A cable shakes each engine's robot in its own way; where a push, a patch or a hole is
+// named the rest of what happened there is its doing, too.
+double sudden_that_may_be_left(const Fit& fit, const Thresholds& t) {
+  const auto cable = [](const Family& f) { return f.effect == "bump"; };
+  const bool shakes = std::any_of(fit.families.begin(), fit.families.end(), cable);
+  return fit.is_local() && !shakes ? t.sudden_beside_local : t.sudden_or_late_left;
+}
+
 Stage stage_of(const Fit& fit) { return find_effect(fit.families.front().effect).stage; }
 
 void find_place(const Model& model, const Fit& fit, Diagnosis& d) {
@@ -140,8 +148,8 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   Fit best = d.causes.front().fit;
   const double lack = lack_of_fit(model, best, t);
   const double left_generic = generic_gain(model, best) + counts_left(model, best);
-  const double no_steady_error =
-      std::max(sudden_left(model, best, t), best.families.empty() ? 0 : late_left(model, best, t));
+  const double sudden = sudden_left(model, best, t);
+  const double no_steady_error = std::max(sudden, best.families.empty() ? 0 : late_left(model, best, t));
   const double leftover = std::max({left_generic, lack, no_steady_error});
   double explained = best.log_evidence - none.log_evidence;
   d.unexplained = d.detected && leftover > t.detect;
@@ -152,7 +160,8 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     const bool much = explained > t.most_left * leftover;
     const bool foretells = !d.closure.known || d.closure.ci95[1] > t.least_closure || much;
     const bool little = left_generic > may_be_left(best, explained, t);
-    const bool other_kind = no_steady_error > std::max(t.detect, t.sudden_or_late_left * explained);
+    const bool other_kind = no_steady_error > std::max(t.detect, t.sudden_or_late_left * explained) ||
+                            sudden > std::max(t.detect, sudden_that_may_be_left(best, t) * explained);
     bool unknown = other_kind || (d.unexplained && (!foretells || little || lack > t.misfit_left * lack_none));
     if (unknown && excluded.count("uneven_floor") == 0) {
       if (const std::optional<Fit> uneven = with_uneven_floor(model, none, best, lack, t)) {

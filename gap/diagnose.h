@@ -35,7 +35,8 @@ struct Thresholds {
   double misfit_left = 0.68;             ///< of the misfit beyond the noise, above which the cause is unknown, too
   double sudden = 40;  ///< log evidence of what is sudden, at a place or a moment, that a difference of engines makes,
   double late = 150;   ///< and the same of readings that do not go with the counts
-  double sudden_or_late_left = 0.5;  ///< share of what is explained that may be left of these
+  double sudden_or_late_left = 0.5;  ///< share of what is explained that may be left of these,
+  double sudden_beside_local = 0.2;  ///< and of what is sudden, where a place or moment is named that is no cable
   double faint = 0.05;               ///< p-value of a single effect, below which it is in the set beside "none"
   double plainly_shown = 100;        ///< log evidence of counts and commands that leaves no doubt
   double beside_floor = 0.05;        ///< share of the misfit that an effect beside an uneven floor must explain

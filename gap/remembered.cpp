@@ -76,15 +76,6 @@ auto with_memory(const Call& call, const Felt& felt_in) {
 
 }  // namespace
 
-std::string bytes_of(const std::vector<Effect>& effects) {
-  std::string bytes;
-  for (const Effect& e : effects) {
-    bytes += e.info->name + '\0' + e.values.run + '\0';
-    bytes.append(reinterpret_cast<const char*>(e.values.numbers.data()), e.values.numbers.size() * sizeof(double));
-  }
-  return bytes;
-}
-
 Simulator remembered(Simulator simulator, const Recording& recording) {
   const auto felt_in = [&recording](std::size_t run, const Effect& effect) {
     return felt(recording.runs[run], recording.robot.wheelbase_m, recording.truth_kind == "track", effect);

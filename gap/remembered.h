@@ -13,7 +13,4 @@ namespace umbsim::gap {
 /// of another run, are left out: they change nothing. Safe to call from several threads.
 Simulator remembered(Simulator simulator, const Recording& recording);
 
-/// Effects with their values as bytes: equal for equal effects alone.
-std::string bytes_of(const std::vector<Effect>& effects);
-
 }  // namespace umbsim::gap

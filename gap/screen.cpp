@@ -148,8 +148,15 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
   const auto offer = [&](Family family, const Starts& starts, const std::vector<double>& reach, int climbs,
                          double gain) {
     if (excluded_.count(family.effect) > 0) return;
-    Candidate c{std::move(family), starts.front(), starts, vector_of(reach), climbs, gain, 1};
-    c.gain -= c.family.search_cost;
+    Candidate c;
+    c.family = std::move(family);
+    c.start = starts.front();
+    c.starts = starts;
+    c.reach = vector_of(reach);
+    c.climbs = climbs;
+    // Where grip is missing the best start says little of the top of its hill.
+    c.any_start = c.family.effect == "slippery_patch";
+    c.gain = gain - c.family.search_cost;
     candidates.push_back(std::move(c));
   };
   for (std::size_t i = 0; i < std::min<std::size_t>(kicks.places.size(), 2); ++i) {
@@ -173,10 +180,21 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
     for (const Eigen::VectorXd& p : all_of({geometric(0.065, 0.25, 1.4), closely ? wide : few, closely ? wide : few})) {
       lifts.push_back(p);
     }
-    offer(lift_family(k.x_m, k.y_m), lifts, {0.005, 0.01, 0.01}, 3, k.gain - 1);
+    if (closely) {
+      const std::vector<double> near{-0.03, -0.02, -0.01, 0, 0.01, 0.02, 0.03};
+      for (const Eigen::VectorXd& p : all_of({geometric(0.012, 0.028, 1.2), near, near})) lifts.push_back(p);
+    }
+    offer(lift_family(k.x_m, k.y_m), lifts, {0.005, 0.01, 0.01}, closely ? 5 : 3, k.gain - 1);
     const double grips = model_.slips_at() > 0 ? model_.slips_at() : 0.05;
-    offer(patch_family(k.x_m, k.y_m), all_of({geometric(0.4 * grips, 1.05 * grips, 1.05), {0.1, 0.3}, {0}, {0}}),
-          {0.02 * grips, 0.06, 0.1, 0.1}, 1, k.gain - 2);
+    Starts patches = all_of({geometric(0.4 * grips, 1.05 * grips, 1.05), {0.1, 0.3}, {0}, {0}});
+    if (closely) {
+      const std::vector<double> about{-0.05, 0, 0.05};
+      for (const Eigen::VectorXd& p :
+           all_of({geometric(0.4 * grips, 1.05 * grips, 1.12), {0.06, 0.1, 0.16, 0.25, 0.4}, about, about})) {
+        patches.push_back(p);
+      }
+    }
+    offer(patch_family(k.x_m, k.y_m), patches, {0.02 * grips, 0.04, 0.04, 0.04}, closely ? 3 : 1, k.gain - 2);
   }
   if (kicks.moments.empty() || kicks.moments.front().gain < kLeastKick) return;
   const Kick& k = kicks.moments.front();
@@ -224,7 +242,10 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
     moved.head(fixed) = shift;
     for (int i = 0; i < count; ++i) columns.push_back(fixed + 1 + first + i);
     const Evidence e = evidence(grams, runs, columns, sd, moved);
-    Candidate c{families_[f], start_of(families_[f]), {}, {}, 1, e.log_density - without.log_density, 1};
+    Candidate c;
+    c.family = families_[f];
+    c.start = start_of(families_[f]);
+    c.gain = e.log_density - without.log_density;
     bool possible = families_[f].from_zero;
     for (int i = 0; i < count; ++i) {
       const double mean = e.mean[fixed + i];

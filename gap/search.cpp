@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "gap/addition.h"
 #include "gap/climb.h"
+#include "gap/kicks.h"
 #include "gap/noise_floor.h"
 
 namespace umbsim::gap {
@@ -29,9 +30,9 @@ constexpr double kWorthAClimb = 0.1;   // of what the best single effect explain
 constexpr double kPartOfNeeded = 0.25; // of what a further effect must bring, the same of its best start
 constexpr double kDoubtful = 0.3;  // of what a further effect must bring
 
-// Nothing is left but noise, as well as it is known.
+// Nothing is left but noise, as well as it is known, and nothing sudden, which a few readings show.
 bool explains_all(const Model& model, const Fit& fit, const Thresholds& t) {
-  return fit.misfit < (1 + t.noise_error) * model.rows();
+  return fit.misfit < (1 + t.noise_error) * model.rows() && strongest(find_kicks(model, fit)) < t.sudden;
 }
 
 // Forward from single effects, with a look back at what the first one should have been.

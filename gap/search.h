@@ -20,7 +20,8 @@ class Screen {
     std::vector<Eigen::VectorXd> starts;  ///< where the simulator bends; empty: only `start`
     Eigen::VectorXd reach;                ///< first steps of a search from the best of them; empty: none
     int climbs = 1;                       ///< from how many of the best of them
-    double gain = 0;  ///< log evidence expected on top of the fit
+    bool any_start = false;               ///< climbed however little the best of them explains
+    double gain = 0;                      ///< log evidence expected on top of the fit
     /// Of its numbers against none, were it the only effect asked about (chi-squared); 1 where a family bends.
     double p_value = 1;
   };

@@ -48,6 +48,7 @@ class MultiBody {
   int caster_wheel_joint(int caster) const { return caster_wheel_joint_[caster]; }
 
   void set_pose(const Eigen::Quaterniond& q_WB, const Eigen::Vector3d& p_WB);
+  const Eigen::Quaterniond& orientation() const { return q_WB_; }
   const Eigen::Matrix3d& rotation() const { return R_WB_; }
   const Eigen::Vector3d& position() const { return p_WB_; }
   double joint_angle(int joint) const { return angle_rad_[joint]; }

@@ -44,6 +44,8 @@ struct SupportLoads {
   std::array<double, 8> caster_n{};
 };
 
+struct Snapshot;
+
 /// A robot on a floor: Bullet's articulated-body dynamics (btMultiBody), contacts of ideal round shapes, and a
 /// direct contact solver (sim/contact_solver.h). Knows nothing of effects: it simulates the description it is given.
 class World {
@@ -62,6 +64,12 @@ class World {
 
   /// Simulates `duration_s`. Throws RunError if the state becomes non-finite.
   void advance(double duration_s);
+
+  /// The moment at the end of the last `advance`.
+  Snapshot snapshot() const;
+  /// Goes on from a moment of a world with the same robot, drivetrain and options, on this world's floor. `X_moved`: the
+  /// robot is carried there from where it was, turned about the floor's origin and then shifted.
+  void resume(const Snapshot& then, const Pose2& X_moved);
 
   void lay_cable(const Cable& cable);
 

@@ -17,6 +17,14 @@ TEST(PatternSearch, ClimbsAHillWithoutDerivatives) {
   EXPECT_NEAR(top[1], -0.7, 0.02);
 }
 
+TEST(PatternSearch, FollowsARidgeThatRunsAcrossBothNumbers) {
+  const auto ridge = [](const Eigen::VectorXd& x) { return -10 * std::abs(x[0] - x[1]) - std::abs(x[0] + x[1] - 6); };
+  const Eigen::VectorXd top =
+      pattern_search(ridge, Eigen::Vector2d(0, 0), Eigen::Vector2d(0.5, 0.5), kMin, kMax, 4, 400);
+  EXPECT_NEAR(top[0], 3, 0.05);
+  EXPECT_NEAR(top[1], 3, 0.05);
+}
+
 TEST(PatternSearch, StaysInsideItsBounds) {
   const Eigen::VectorXd top = pattern_search([](const Eigen::VectorXd& x) { return x[0] + x[1]; },
                                              Eigen::Vector2d(0, 0), Eigen::Vector2d(3, 3), kMin, kMax, 2, 200);

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/pose2.h"
+#include "effects/rig.h"
+#include "recording/recording.h"
+#include "sim/snapshot.h"
+#include "sim/world.h"
+
+namespace umbsim {
+
+/// A recorded run as it is driven again: where from, and the speeds of both shafts at each of the encoders' samples.
+struct ShaftDrive {
+  const std::vector<EncoderSample>& samples;
+  std::vector<double> left_radps;
+  std::vector<double> right_radps;
+  Pose2 start;
+
+  double period_s(std::size_t sample) const { return samples[sample].time_s - samples[sample - 1].time_s; }
+  /// From the sample before to this one.
+  void advance(World& world, std::size_t sample) const {
+    world.command(left_radps[sample], right_radps[sample]);
+    world.advance(period_s(sample));
+  }
+};
+
+/// A run that was driven once: the poses at all samples, and the moments at some of them.
+struct TracedRun {
+  static constexpr std::size_t kEvery = 10;  ///< samples from one moment to the next
+  ShaftDrive drive;
+  std::vector<Pose2> track;
+  std::vector<Snapshot> moments;
+};
+
+/// Throws RunError, InputError.
+TracedRun traced(World& world, ShaftDrive drive);
+
+/// Whether the floor is the same at each place and in each direction but for what lies there: cables and patches.
+bool same_everywhere(const Floor& floor);
+
+/// The poses at the samples of the same drive in a world of `rig` and `pushes`, which differs from that of `without` by
+/// cables, patches and pushes alone, on a floor that is the same everywhere. Only what happens near these is driven:
+/// else the run goes as it went without them, carried to where the robot now is, once it goes on alike
+/// (sim/snapshot.h). Throws RunError, InputError.
+std::vector<Pose2> driven_near(World& world, const Rig& rig, const std::vector<Push>& pushes, const TracedRun& without);
+
+/// Runs that were traced last. Safe to call from several threads.
+class Traces {
+ public:
+  std::shared_ptr<const TracedRun> get(const std::string& key, const std::function<TracedRun()>& trace);
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<const TracedRun>> kept_;
+  std::deque<std::string> order_;
+};
+
+}  // namespace umbsim

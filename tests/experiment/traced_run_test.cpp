@@ -1,0 +1,150 @@
+// What happens at a place or at a moment, driven from shortly before it until it is over, against the whole run.
+#include "experiment/traced_run.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "core/error.h"
+#include "sim/world.h"
+
+namespace umbsim {
+namespace {
+
+constexpr double kPeriod_s = 0.02;
+constexpr double kLeg_s = 10;
+constexpr double kTurn_s = 3;
+
+double distance_m(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
+
+// Four legs of two metres and turns on the spot, with ramps of half a second.
+struct Squares {
+  Squares() {
+    for (int leg = 0; leg < 4; ++leg) {
+      add(2.67, 2.67, kLeg_s);
+      add(0, 0, 0.5);
+      add(-1.2, 1.2, kTurn_s);
+      add(0, 0, 0.5);
+    }
+  }
+  void add(double left_radps, double right_radps, double duration_s) {
+    for (int i = 0; i < int(std::lround(duration_s / kPeriod_s)); ++i) {
+      const double ramp = std::min(1.0, i * kPeriod_s / 0.5);
+      const double l = samples.empty() ? 0 : left.back(), r = samples.empty() ? 0 : right.back();
+      EncoderSample s;
+      s.time_s = double(samples.size()) * kPeriod_s;
+      samples.push_back(s);
+      left.push_back(l + ramp * (left_radps - l));
+      right.push_back(r + ramp * (right_radps - r));
+    }
+  }
+  ShaftDrive drive() const { return {samples, left, right, {}}; }
+
+  std::vector<EncoderSample> samples;
+  std::vector<double> left;
+  std::vector<double> right;
+};
+
+class TracedRunTest : public ::testing::Test {
+ protected:
+  TracedRunTest() {
+    rig_.robot = load_robot(UMBSIM_SOURCE_DIR "/robots/labmate.urdf");
+    for (Motor& m : rig_.drivetrain.motor) m.torque_limit_nm = 1e6;  // shafts turn as they are told, as in replays
+  }
+
+  World world(const std::vector<Push>& pushes = {}) const {
+    Floor floor = rig_.floor;
+    return World(rig_.robot, rig_.drivetrain, floor, {}, pushes);
+  }
+  World bare() const {
+    Floor floor = rig_.floor;
+    floor.cables.clear();
+    floor.patches.clear();
+    return World(rig_.robot, rig_.drivetrain, floor, {});
+  }
+
+  // Largest distance between the run driven near what happens and the whole run; how far that is from a run in which
+  // nothing happens; and the share of the time that was driven.
+  void compare(const char* what, const std::vector<Push>& pushes, double most_driven) {
+    World plain = bare();
+    const TracedRun without = traced(plain, squares_.drive());
+    World whole_world = world(pushes);
+    const TracedRun whole = traced(whole_world, squares_.drive());
+    World near_world = world(pushes);
+    const std::vector<Pose2> near = driven_near(near_world, rig_, pushes, without);
+    ASSERT_EQ(near.size(), whole.track.size());
+    double off_m = 0, off_rad = 0, changed_m = 0;
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      off_m = std::max(off_m, distance_m(near[i], whole.track[i]));
+      off_rad = std::max(off_rad, std::abs(near[i].theta_rad - whole.track[i].theta_rad));
+      changed_m = std::max(changed_m, distance_m(without.track[i], whole.track[i]));
+    }
+    const double driven = near_world.cost().simulated_s / whole_world.cost().simulated_s;
+    std::cout << fmt::format(
+        "{}: moves the robot by {:.1f} mm; driven near it off by {:.2g} mm, {:.2g} rad; {:.0f} % of the time\n", what,
+        1000 * changed_m, 1000 * off_m, off_rad, 100 * driven);
+    EXPECT_GT(changed_m, 0.001);
+    EXPECT_LT(off_m, 1e-6);
+    EXPECT_LT(off_rad, 1e-6);
+    EXPECT_LT(driven, most_driven);
+  }
+
+  Rig rig_;
+  Squares squares_;
+};
+
+TEST_F(TracedRunTest, ResumesAsIfItHadGoneOn) {
+  const ShaftDrive drive = squares_.drive();
+  World a = bare();
+  a.place({0.1, 0.2, 0.3});
+  for (std::size_t i = 1; i <= 700; ++i) drive.advance(a, i);
+  World b = bare();
+  b.resume(a.snapshot(), {});
+  for (std::size_t i = 701; i < drive.samples.size(); ++i) {
+    drive.advance(a, i);
+    drive.advance(b, i);
+  }
+  EXPECT_EQ(a.pose().x_m, b.pose().x_m);
+  EXPECT_EQ(a.pose().y_m, b.pose().y_m);
+  EXPECT_EQ(a.pose().theta_rad, b.pose().theta_rad);
+  EXPECT_EQ(a.encoder_angle(0), b.encoder_angle(0));
+}
+
+TEST_F(TracedRunTest, ACableOnALeg) {
+  rig_.floor.cables.push_back({1.2, 0.17, M_PI / 2, 0.01, 0.08});
+  compare("cable", {}, 0.4);
+}
+
+TEST_F(TracedRunTest, ASlipperyPatchInACorner) {
+  rig_.floor.patches.push_back({2.1, 0.1, 0.15, 0.02});
+  compare("patch", {}, 0.4);
+}
+
+TEST_F(TracedRunTest, AHoleAtTheStart) {
+  rig_.floor.patches.push_back({0.02, 0.17, 0.04, 0});
+  compare("hole", {}, 0.4);
+}
+
+TEST_F(TracedRunTest, APush) { compare("push", {{21.3, 0.1, 40, M_PI / 2, 0.2, 0}}, 0.1); }
+
+TEST_F(TracedRunTest, AHoleUnderARobotWithBacklash) {
+  for (Motor& m : rig_.drivetrain.motor) m.backlash_rad = 0.03;
+  rig_.floor.patches.push_back({2.0, 0.15, 0.08, 0});
+  compare("hole, backlash", {}, 0.6);
+}
+
+TEST_F(TracedRunTest, KnowsFloorsThatDifferFromPlaceToPlace) {
+  Floor floor;
+  EXPECT_TRUE(same_everywhere(floor));
+  floor.patches.push_back({1, 1, 0.1, 0.1});
+  EXPECT_TRUE(same_everywhere(floor)) << "but for what lies there";
+  floor.drift_y = 0.01;
+  EXPECT_FALSE(same_everywhere(floor));
+  floor = {};
+  floor.ripples = random_ripples(0.001, 1, 1, 0);
+  EXPECT_FALSE(same_everywhere(floor));
+}
+
+}  // namespace
+}  // namespace umbsim
