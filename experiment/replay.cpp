@@ -12,6 +12,7 @@
 #include "experiment/drive_run.h"
 #include "experiment/recorded_shafts.h"
 #include "experiment/rolling_noise.h"
+#include "experiment/seen_track.h"
 #include "recording/coarse_counts.h"
 #include "recording/encoder_clock.h"
 
@@ -187,7 +188,9 @@ std::vector<Pose2> Replay::driven(std::size_t index, const std::vector<Effect>& 
     bare.cables.clear();
     bare.patches.clear();
     World plain(r.robot, r.drivetrain, bare, scenario_.physics);
-    return traced(plain, shafts(index, supposed));
+    TracedRun run = traced(plain, shafts(index, supposed));
+    if (recording_.truth_kind == "track") run.seen = seen_beside(recording_.runs[index], run.track, TracedRun::kEvery);
+    return run;
   });
   return driven_near(world, r, pushes, *without);
 }

@@ -64,7 +64,7 @@ class Happenings {
 }  // namespace
 
 TracedRun traced(World& world, ShaftDrive shafts) {
-  TracedRun run{std::move(shafts), {}, {}};
+  TracedRun run{std::move(shafts), {}, {}, {}};
   const ShaftDrive& drive = run.drive;
   run.track.reserve(drive.samples.size());
   world.place(drive.start);
@@ -90,9 +90,10 @@ std::vector<Pose2> driven_near(World& world, const Rig& rig, const std::vector<P
   std::vector<Pose2> track;
   track.reserve(samples);
   Pose2 moved;  // to where the robot is now from where it was without
+  const auto there = [&](std::size_t i) { return without.seen.empty() ? moved : without.seen[i / kEvery]; };
   // Something happens from here to the next sample.
   const auto happens = [&](std::size_t i) {
-    return happenings.near(moved * without.track[i]) ||
+    return happenings.near(there(i) * without.track[i]) ||
            (i + 1 < samples && happenings.pushed(time_s(i) - kMargin_s, time_s(i + 1) + kMargin_s));
   };
   while (track.size() < samples) {
@@ -101,21 +102,22 @@ std::vector<Pose2> driven_near(World& world, const Rig& rig, const std::vector<P
     for (std::size_t i = track.size(); i < next; ++i) track.push_back(moved * without.track[i]);
     if (next == samples) break;
     const std::size_t from = next / kEvery * kEvery;
+    const Pose2 back = moved * inverse(there(from));
     if (from == 0) {
-      world.place(drive.start);
-      track.assign(1, world.pose());
+      world.place(there(0) * drive.start);
     } else {
-      world.resume(without.moments[from / kEvery], moved);
-      track.resize(from + 1, moved * without.track[from]);
+      world.resume(without.moments[from / kEvery], there(from));
     }
+    track.resize(from);
+    track.push_back(back * world.pose());
     bool over = false;
     for (std::size_t i = from + 1; i < samples && !over; ++i) {
       drive.advance(world, i);
-      track.push_back(world.pose());
+      track.push_back(back * world.pose());
       if (i % kEvery != 0 || happenings.near(world.pose())) continue;
       const bool still = happenings.pushed(time_s(i - 1), time_s(i) + kMargin_s);
       over = !still && goes_on_alike(world.snapshot(), without.moments[i / kEvery]);
-      if (over) moved = world.pose() * inverse(without.track[i]);
+      if (over) moved = track.back() * inverse(without.track[i]);
     }
   }
   return track;

@@ -37,6 +37,7 @@ struct TracedRun {
   ShaftDrive drive;
   std::vector<Pose2> track;
   std::vector<Snapshot> moments;
+  std::vector<Pose2> seen;  ///< of each moment, seen_track.h; empty: the robot was where the track says
 };
 
 /// Throws RunError, InputError.
@@ -48,7 +49,8 @@ bool same_everywhere(const Floor& floor);
 /// The poses at the samples of the same drive in a world of `rig` and `pushes`, which differs from that of `without` by
 /// cables, patches and pushes alone, on a floor that is the same everywhere. Only what happens near these is driven:
 /// else the run goes as it went without them, carried to where the robot now is, once it goes on alike
-/// (sim/snapshot.h). Throws RunError, InputError.
+/// (sim/snapshot.h). The robot meets them where it was seen: what they do to it is carried back to the track. Throws
+/// RunError, InputError.
 std::vector<Pose2> driven_near(World& world, const Rig& rig, const std::vector<Push>& pushes, const TracedRun& without);
 
 /// Runs that were traced last. Safe to call from several threads.

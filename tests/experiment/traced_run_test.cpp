@@ -128,6 +128,32 @@ TEST_F(TracedRunTest, AHoleAtTheStart) {
 
 TEST_F(TracedRunTest, APush) { compare("push", {{21.3, 0.1, 40, M_PI / 2, 0.2, 0}}, 0.1); }
 
+// Beside a hole in the replay, over it where it was seen: it is felt there, and what it does is carried back.
+TEST_F(TracedRunTest, MeetsAHoleWhereItWasSeen) {
+  rig_.floor.patches.push_back({2.0, 0.17, 0.04, 0});
+  World plain = bare();
+  TracedRun without = traced(plain, squares_.drive());
+  const auto largest_m = [](const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
+    double most_m = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most_m = std::max(most_m, distance_m(a[i], b[i]));
+    return most_m;
+  };
+  World at_its_replay = world();
+  const std::vector<Pose2> felt = driven_near(at_its_replay, rig_, {}, without);
+  const Pose2 beside{0, 0.3, 0};
+  without.seen.assign(without.moments.size(), beside);
+  World seen_beside_it = world();
+  const std::vector<Pose2> missed = driven_near(seen_beside_it, rig_, {}, without);
+  EXPECT_GT(largest_m(felt, without.track), 0.01);
+  EXPECT_LT(largest_m(missed, without.track), 1e-9);
+  // The hole is where it was seen: as if neither had moved.
+  rig_.floor.patches.back().y_m += beside.y_m;
+  World seen_over_it = world();
+  const std::vector<Pose2> carried = driven_near(seen_over_it, rig_, {}, without);
+  std::cout << fmt::format("moved with its hole: off by {:.2g} mm\n", 1000 * largest_m(carried, felt));
+  EXPECT_LT(largest_m(carried, felt), 1e-3);
+}
+
 TEST_F(TracedRunTest, AHoleUnderARobotWithBacklash) {
   for (Motor& m : rig_.drivetrain.motor) m.backlash_rad = 0.03;
   rig_.floor.patches.push_back({2.0, 0.15, 0.08, 0});
