@@ -29,10 +29,14 @@ constexpr double kLocalHint = 0.25;    // and the same of places and moments, wh
 constexpr double kWorthAClimb = 0.1;   // of what the best single effect explains, the same of the best start
 constexpr double kPartOfNeeded = 0.25; // of what a further effect must bring, the same of its best start
 constexpr double kDoubtful = 0.3;  // of what a further effect must bring
+constexpr double kSuddenBeside = 0.05;  // of what is explained, that another engine leaves of kicks
 
-// Nothing is left but noise, as well as it is known, and nothing sudden, which a few readings show.
-bool explains_all(const Model& model, const Fit& fit, const Thresholds& t) {
-  return fit.misfit < (1 + t.noise_error) * model.rows() && strongest(find_kicks(model, fit)) < t.sudden;
+// Nothing is left but noise, as well as it is known, and nothing sudden, which a few readings show. `none`: the fit of no
+// effect.
+bool explains_all(const Model& model, const Fit& fit, const Fit& none, const Thresholds& t) {
+  if (fit.misfit >= (1 + t.noise_error) * model.rows()) return false;
+  const double explained = fit.log_evidence - none.log_evidence;
+  return strongest(find_kicks(model, fit)) < t.sudden + kSuddenBeside * explained;
 }
 
 // Forward from single effects, with a look back at what the first one should have been.
@@ -126,7 +130,7 @@ class Search {
   bool idle(Screen::Candidate& c) const {
     double rival = -1e300;
     for (const Fit& f : fits_) {
-      if (explains_all(model_, f, thresholds_)) rival = std::max(rival, f.log_evidence - none_.log_evidence);
+      if (explains_all(model_, f, none_, thresholds_)) rival = std::max(rival, f.log_evidence - none_.log_evidence);
     }
     if (rival < c.gain) return false;
     if (c.gain < (c.family.search_cost > 0 ? kLocalHint : kHint) * rival) return true;
@@ -142,7 +146,7 @@ class Search {
       if (other && from.size() < kBases) from.push_back(std::move(f));
     }
     if (from.size() < 2) return from;
-    const bool second_is_idle = explains_all(model_, from[0], thresholds_) &&
+    const bool second_is_idle = explains_all(model_, from[0], none_, thresholds_) &&
                                 from[1].log_evidence < from[0].log_evidence - kFarBehind;
     // Two explanations of what happened at one place or moment are not two.
     if (second_is_idle || (from[0].is_local() && from[1].is_local())) from.resize(1);

@@ -293,5 +293,45 @@ TEST(Replay, RecordedDimensionsGoBeforeTheRobotFile) {
   EXPECT_NEAR(replay.nominal().wheelbase_m(), 0.98 * 0.340, 1e-12);
 }
 
+// Largest change of the heading's error within a second, mean over the runs.
+double mean_jump_rad(const Replay& replay, const std::vector<Effect>& effects) {
+  constexpr double kSecond_s = 1;
+  double sum = 0;
+  const Recording& recording = replay.recording();
+  for (std::size_t r = 0; r < recording.runs.size(); ++r) {
+    const std::vector<Pose2> track = replay.poses(r, effects);
+    const std::vector<TruthSample>& truth = recording.runs[r].truth;
+    const auto off_rad = [&](std::size_t k) { return wrap_angle(truth[k].X_WB.theta_rad - track[k].theta_rad); };
+    double most = 0;
+    for (std::size_t i = 0, k = 0; k < track.size(); ++k) {
+      while (truth[k].time_s - truth[i].time_s > kSecond_s) ++i;
+      most = std::max(most, std::abs(off_rad(k) - off_rad(i)));
+    }
+    sum += most;
+  }
+  return sum / double(recording.runs.size());
+}
+
+// Whether a wheel comes across a hole of two centimetres is a matter of millimetres, by which a replay strays. The same
+// recording without its track shows the difference.
+TEST(ReplayOfATrack, MeetsAHoleWhereTheRobotWasSeen) {
+  Scenario s = squares(4, 6);
+  s.noise.wheel_noise_m_per_sqrt_m = 3e-4;
+  s.effects = {effect("wheel_lift", {{"x_m", 3.985}, {"y_m", 0.175}, {"length_m", 0.02}}),
+               effect("wheel_lift", {{"x_m", 3.985}, {"y_m", -0.175}, {"length_m", 0.02}})};
+  const Recording recording = run_experiment(s, 0).recording;
+  const Replay seen(scenario_of(recording, "."), recording);
+  Recording ends = recording;
+  ends.truth_kind = "endpoints";
+  const Replay unseen(scenario_of(ends, "."), ends);
+  const double none = mean_jump_rad(seen, {});
+  const double with_track = mean_jump_rad(seen, s.effects);
+  const double without = mean_jump_rad(unseen, s.effects);
+  std::cout << fmt::format("mean of the largest jumps: no hole {:.2f} mrad, met by the replay {:.2f}, where seen {:.2f}\n",
+                           1000 * none, 1000 * without, 1000 * with_track);
+  EXPECT_LT(with_track, 0.3 * none);
+  EXPECT_LT(with_track, 0.5 * without);
+}
+
 }  // namespace
 }  // namespace umbsim
