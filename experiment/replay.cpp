@@ -190,7 +190,7 @@ std::vector<Pose2> Replay::driven(std::size_t index, const std::vector<Effect>& 
     World plain(r.robot, r.drivetrain, bare, scenario_.physics);
     TracedRun run = traced(plain, shafts(index, supposed));
     if (recording_.truth_kind == "track") run.seen = seen_beside(recording_.runs[index], run.track, TracedRun::kEvery);
-    return run;
+    return std::make_shared<const TracedRun>(std::move(run));
   });
   return driven_near(world, r, pushes, *without);
 }

@@ -64,7 +64,7 @@ class Replay {
   int steps_ = 1;              // of the simulator in one period of the encoders
   double count_step_ = 1;      // width of the encoders' steps, in counts of the recording
   std::vector<double> lag_s_;  // of the counts behind the commands, per run
-  std::shared_ptr<Traces> traces_ = std::make_shared<Traces>();
+  std::shared_ptr<Traces> traces_ = std::make_shared<Traces>(kTracesKept);
 };
 
 /// The scenario that a recording alone suggests: its robot, course, speeds and encoder rate.

@@ -7,9 +7,8 @@
 namespace umbsim {
 namespace {
 
-constexpr std::size_t kMostKept = 64;  // traces: some 50 MB
-constexpr double kMargin_m = 0.05;     // beyond where anything is felt; more than a robot drives in a sample
-constexpr double kMargin_s = 0.05;     // the same of a push
+constexpr double kMargin_m = 0.05;  // beyond where anything is felt; more than a robot drives in a sample
+constexpr double kMargin_s = 0.05;  // the same of a push
 
 // Discs outside of which nothing that lies on the floor is felt by a robot whose axle's middle is there.
 struct Disc {
@@ -121,21 +120,6 @@ std::vector<Pose2> driven_near(World& world, const Rig& rig, const std::vector<P
     }
   }
   return track;
-}
-
-std::shared_ptr<const TracedRun> Traces::get(const std::string& key, const std::function<TracedRun()>& trace) {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (const auto found = kept_.find(key); found != kept_.end()) return found->second;
-  }
-  auto run = std::make_shared<const TracedRun>(trace());
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (kept_.emplace(key, run).second) order_.push_back(key);
-  if (order_.size() > kMostKept) {
-    kept_.erase(order_.front());
-    order_.pop_front();
-  }
-  return run;
 }
 
 }  // namespace umbsim

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <deque>
-#include <functional>
-#include <map>
+#include <cstddef>
 #include <memory>
-#include <mutex>
-#include <string>
 #include <vector>
 
 #include "core/pose2.h"
+#include "core/recent.h"
 #include "effects/rig.h"
 #include "recording/recording.h"
 #include "sim/snapshot.h"
@@ -53,15 +50,8 @@ bool same_everywhere(const Floor& floor);
 /// RunError, InputError.
 std::vector<Pose2> driven_near(World& world, const Rig& rig, const std::vector<Push>& pushes, const TracedRun& without);
 
-/// Runs that were traced last. Safe to call from several threads.
-class Traces {
- public:
-  std::shared_ptr<const TracedRun> get(const std::string& key, const std::function<TracedRun()>& trace);
-
- private:
-  std::mutex mutex_;
-  std::map<std::string, std::shared_ptr<const TracedRun>> kept_;
-  std::deque<std::string> order_;
-};
+/// Runs that were traced last.
+using Traces = Recent<std::shared_ptr<const TracedRun>>;
+constexpr std::size_t kTracesKept = 64;  ///< some 50 MB
 
 }  // namespace umbsim

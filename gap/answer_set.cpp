@@ -23,9 +23,11 @@ void add_to_set(const std::string& name, Diagnosis& d) {
 
 std::vector<std::string> tied(const std::vector<Cause>& causes, const Thresholds& t) {
   std::vector<std::string> names;
+  const Cause& first = causes.front();
   for (const Cause& c : causes) {
-    if (c.name == "none" && causes.front().name != "none") continue;
-    if (causes.front().score - c.score <= t.tie) names.push_back(c.name);
+    if (c.name == "none" && first.name != "none") continue;
+    const double near_top = first.fit.is_local() && c.fit.is_local() ? t.top * first.score : 0;
+    if (first.score - c.score <= t.tie + near_top) names.push_back(c.name);
   }
   return names;
 }

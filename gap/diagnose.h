@@ -26,6 +26,7 @@ struct Thresholds {
   double noise_error = 0.1;        ///< a misfit larger by this share is no news: three sd of two pairs of repeats
   double variant = 8;              ///< log evidence within which another wheel of the same effect may take part
   double tie = 6;                  ///< log evidence within which two explanations are not told apart
+  double top = 1e-4;  ///< and, of a place or moment, the share of its evidence to which the search finds its top
   double known_share = 0.93;  ///< of the explainable evidence that named effects must explain, or the cause is unknown
   double known_share_of_toe = 0.7;       ///< the same of toed wheels, whose scrub depends on tyres that nobody knows
   double known_share_of_rolling = 0.99;  ///< the same of what follows from rolling and counting, whatever the contact,

@@ -1,11 +1,10 @@
 #include "gap/remembered.h"
 
 #include <cmath>
-#include <deque>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <string>
+
+#include "core/recent.h"
 
 namespace umbsim::gap {
 namespace {
@@ -34,35 +33,10 @@ bool felt(const RecordedRun& run, double wheelbase_m, bool tracked, const Effect
   return false;
 }
 
-template <class Result>
-class Memory {
- public:
-  template <class Simulate>
-  Result get(const std::string& key, const Simulate& simulate) {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (const auto found = kept_.find(key); found != kept_.end()) return found->second;
-    }
-    Result result = simulate();
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (kept_.emplace(key, result).second) order_.push_back(key);
-    if (order_.size() > kMostKept) {
-      kept_.erase(order_.front());
-      order_.pop_front();
-    }
-    return result;
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<std::string, Result> kept_;
-  std::deque<std::string> order_;
-};
-
 template <class Call, class Felt>
 auto with_memory(const Call& call, const Felt& felt_in) {
   using Result = typename Call::result_type;
-  const auto memory = std::make_shared<Memory<Result>>();
+  const auto memory = std::make_shared<Recent<Result>>(kMostKept);
   return [call, felt_in, memory](std::size_t run, const std::vector<Effect>& all, auto... roughness) {
     std::vector<Effect> effects;
     for (const Effect& e : all) {

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "gap/drivable.h"
+#include "gap/local_starts.h"
 #include "gap/search.h"
 
 namespace umbsim::gap {
@@ -28,40 +29,8 @@ double shown_start(const std::string& effect, const Habits& h) {
   return std::nan("");
 }
 
-using Starts = std::vector<Eigen::VectorXd>;
-
 Eigen::VectorXd vector_of(const std::vector<double>& x) {
   return Eigen::Map<const Eigen::VectorXd>(x.data(), Eigen::Index(x.size()));
-}
-
-std::vector<double> geometric(double from, double to, double ratio) {
-  std::vector<double> all;
-  for (double x = from; x <= to; x *= ratio) all.push_back(x);
-  return all;
-}
-
-std::vector<double> both_ways(std::vector<double> sizes) {
-  const std::size_t n = sizes.size();
-  for (std::size_t i = 0; i < n; ++i) sizes.push_back(-sizes[i]);
-  return sizes;
-}
-
-// Every combination of the values of each number.
-Starts all_of(const std::vector<std::vector<double>>& values) {
-  std::vector<std::vector<double>> all{{}};
-  for (const std::vector<double>& next : values) {
-    std::vector<std::vector<double>> longer;
-    for (const std::vector<double>& some : all) {
-      for (const double x : next) {
-        longer.push_back(some);
-        longer.back().push_back(x);
-      }
-    }
-    all = std::move(longer);
-  }
-  Starts starts;
-  for (const std::vector<double>& x : all) starts.push_back(vector_of(x));
-  return starts;
 }
 
 // The leg that a moment belongs to, and the seconds since its start; before the first leg: leg 0.
@@ -163,47 +132,21 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
     const PlaceKick& k = kicks.places[i];
     if (k.gain < kLeastKick) break;
     if (k.lost_m > 0) {
-      // Closed form of a cable that costs a wheel this distance.
-      const double height_m = std::clamp(0.5 * std::pow(3 * std::sqrt(R) * k.lost_m, 2.0 / 3), 0.001, 0.02);
-      std::vector<double> heights;
-      for (const double share : {0.5, 0.7, 1.0, 1.4, 2.0}) heights.push_back(std::clamp(share * height_m, 0.001, 0.02));
-      offer(bump_family(k.x_m, k.y_m, k.heading_rad), all_of({heights, {-0.03, -0.015, 0, 0.015, 0.03}}), {0.002, 0.02},
-            2, k.gain);
+      offer(bump_family(k.x_m, k.y_m, k.heading_rad), cable_starts(k.lost_m, R), {0.002, 0.02}, 2, k.gain);
     }
-    // A few per cent of length, or of friction, decide how far a wheel gets that pulls against the other in a corner. A
-    // short lift is felt where it lies under a wheel's track, and the kick tells its place to some centimetres only.
     const bool closely = i == 0 && fit.families.empty();
-    const std::vector<double> few{-0.04, 0, 0.04};
-    const std::vector<double> close{-0.06, -0.04, -0.02, 0, 0.02, 0.04, 0.06};
-    const std::vector<double> wide{-0.05, -0.025, 0, 0.025, 0.05};
-    Starts lifts = all_of({geometric(0.012, 0.06, 1.4), closely ? close : few, closely ? close : few});
-    for (const Eigen::VectorXd& p : all_of({geometric(0.065, 0.25, 1.4), closely ? wide : few, closely ? wide : few})) {
-      lifts.push_back(p);
-    }
-    if (closely) {
-      const std::vector<double> near{-0.03, -0.02, -0.01, 0, 0.01, 0.02, 0.03};
-      for (const Eigen::VectorXd& p : all_of({geometric(0.012, 0.028, 1.2), near, near})) lifts.push_back(p);
-    }
-    offer(lift_family(k.x_m, k.y_m), lifts, {0.005, 0.01, 0.01}, closely ? 5 : 3, k.gain - 1);
+    offer(lift_family(k.x_m, k.y_m), lift_starts(closely), {0.005, 0.01, 0.01}, closely ? 5 : 3, k.gain - 1);
     const double grips = model_.slips_at() > 0 ? model_.slips_at() : 0.05;
-    Starts patches = all_of({geometric(0.4 * grips, 1.05 * grips, 1.05), {0.1, 0.3}, {0}, {0}});
-    if (closely) {
-      const std::vector<double> about{-0.05, 0, 0.05};
-      for (const Eigen::VectorXd& p :
-           all_of({geometric(0.4 * grips, 1.05 * grips, 1.12), {0.06, 0.1, 0.16, 0.25, 0.4}, about, about})) {
-        patches.push_back(p);
-      }
-    }
-    offer(patch_family(k.x_m, k.y_m), patches, {0.02 * grips, 0.04, 0.04, 0.04}, closely ? 3 : 1, k.gain - 2);
+    offer(patch_family(k.x_m, k.y_m), patch_starts(grips, closely), {0.02 * grips, 0.04, 0.04, 0.04}, closely ? 3 : 1,
+          k.gain - 2);
   }
   if (kicks.moments.empty() || kicks.moments.front().gain < kLeastKick) return;
   const Kick& k = kicks.moments.front();
   const RecordedRun& run = model_.recording().runs[k.run];
   const auto [leg, seconds] = leg_at(model_.stretches(k.run), run.truth[k.sample].time_s);
   if (leg == 0) return;
-  // Tyres hold until a push is stronger than they are: a little more makes all the difference.
-  offer(push_family(run.id, leg, std::max(0.0, std::round(seconds * 10 - 1) / 10)),
-        all_of({both_ways(geometric(2.5, 170, 1.1)), {0, 0.05, 0.1}}), {2, 0.05}, 2, k.gain);
+  offer(push_family(run.id, leg, std::max(0.0, std::round(seconds * 10 - 1) / 10)), push_starts(), {2, 0.05}, 2,
+        k.gain);
 }
 
 std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {

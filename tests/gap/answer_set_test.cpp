@@ -61,6 +61,22 @@ TEST(AnswerSet, OneEffectMoreStandsBesideTheFirstCause) {
   EXPECT_THAT(d.set, ElementsAre("wheelbase", "wear+wheelbase"));
 }
 
+// The top of the hill of a place is found to a share of what the place explains.
+TEST(AnswerSet, WhatStandsBesideTheSamePlaceIsTiedFromFurther) {
+  const auto causes = [](bool local) {
+    std::vector<Cause> all;
+    for (const auto& [effect, score] : {std::pair{"tyre_compliance", 2e5}, std::pair{"wheel_radius_scale", 2e5 - 20}}) {
+      Fit fit = fit_of({effect}, score);
+      if (local) fit.families.push_back(patch_family(1, 2));
+      all.push_back({fit.name(), fit, score, 0});
+    }
+    return all;
+  };
+  EXPECT_THAT(tied(causes(false), {}), ElementsAre("tyre_compliance"));
+  EXPECT_THAT(tied(causes(true), {}),
+              ElementsAre("slippery_patch+tyre_compliance", "slippery_patch+wheel_radius_scale"));
+}
+
 TEST(AnswerSet, NothingStandsBesideUnknownForBeingDoubtful) {
   const Fit none = fit_of({}, 100);
   Diagnosis d = named(none);
