@@ -114,7 +114,7 @@ void predict(const PredictArguments& a) {
   prepare_output_folder(out, a.force);
   Scenario without = scenario;
   without.effects.clear();
-  const Replay replay(without, recording);
+  const Replay replay(without, recording, false);
   std::vector<Scores> all;
   for (const gap::Prediction& p : predictions(replay, scenario.effects, a.squares)) all.push_back(scores(recording, p));
   write_folder(out, a.force, [&](const fs::path& into) {

@@ -84,8 +84,11 @@ std::vector<Push> timed(const std::vector<LegPush>& pushes, const std::vector<St
 
 }  // namespace
 
-Replay::Replay(const Scenario& scenario, const Recording& recording)
-    : scenario_(scenario), recording_(recording), nominal_(load_scenario_robot(scenario)) {
+Replay::Replay(const Scenario& scenario, const Recording& recording, bool by_tracker)
+    : scenario_(scenario),
+      recording_(recording),
+      by_tracker_(by_tracker && recording.truth_kind == "track"),
+      nominal_(load_scenario_robot(scenario)) {
   Rig believed;
   believed.robot = nominal_;
   apply(WheelRadiusScale{recording.robot.wheel_radius_m / nominal_.wheels[0].radius_m - 1}, believed);
@@ -189,7 +192,7 @@ std::vector<Pose2> Replay::driven(std::size_t index, const std::vector<Effect>& 
     bare.patches.clear();
     World plain(r.robot, r.drivetrain, bare, scenario_.physics);
     TracedRun run = traced(plain, shafts(index, supposed));
-    if (recording_.truth_kind == "track") run.seen = seen_beside(recording_.runs[index], run.track, TracedRun::kEvery);
+    if (by_tracker_) run.seen = seen_beside(recording_.runs[index], run.track, TracedRun::kEvery);
     return std::make_shared<const TracedRun>(std::move(run));
   });
   return driven_near(world, r, pushes, *without);

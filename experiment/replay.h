@@ -18,8 +18,10 @@ class Replay {
  public:
   /// `scenario` describes the robot and floor as the experimenter believes them: its effects act in every replay, below
   /// those asked for; its course and runs are not used. The wheel radius and wheelbase that the recording states go
-  /// before the URDF's. Throws InputError.
-  Replay(const Scenario& scenario, const Recording& recording);
+  /// before the URDF's. `by_tracker`: the robot meets a cable or a patch where the recording's tracker saw it then
+  /// (seen_track.h), else where the replay has come to: a prediction knows nothing of the way but the ticks. Throws
+  /// InputError.
+  Replay(const Scenario& scenario, const Recording& recording, bool by_tracker = true);
 
   const Recording& recording() const { return recording_; }
   const RobotModel& nominal() const { return nominal_; }
@@ -57,6 +59,7 @@ class Replay {
 
   Scenario scenario_;
   const Recording& recording_;
+  bool by_tracker_;
   RobotModel nominal_;
   std::vector<std::vector<Stretch>> stretches_;
   std::vector<Pose2> start_;   // of each run

@@ -51,7 +51,7 @@ std::string run_hash(const Recording& recording, const RecordedRun& run, std::si
   for (const EncoderSample& s : run.encoders) {
     b.add(s.time_s).add(s.left_ticks).add(s.right_ticks).add(s.left_command_radps).add(s.right_command_radps);
   }
-  // The poses say where a replay starts.
+  // The poses say where a replay starts, and where places are met.
   for (const TruthSample& t : run.truth) b.add(t.time_s).add(t.X_WB.x_m).add(t.X_WB.y_m).add(t.X_WB.theta_rad);
   return b.hash();
 }
