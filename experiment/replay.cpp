@@ -180,9 +180,8 @@ std::vector<Pose2> Replay::driven(std::size_t index, const std::vector<Effect>& 
   const Rig supposed = rig(index, effects);
   const Rig r = shafts_as_counted(supposed);
   const std::vector<Push> pushes = timed(r.pushes, stretches_[index]);
-  World world(r.robot, r.drivetrain, r.floor, scenario_.physics, pushes);
   const bool local = !r.floor.cables.empty() || !r.floor.patches.empty() || !pushes.empty();
-  if (!local || !same_everywhere(r.floor)) return traced(world, shafts(index, supposed)).track;
+  if (!local || !same_everywhere(r.floor)) return driven_over(index, effects, 0);
   std::vector<Effect> elsewhere;
   std::copy_if(effects.begin(), effects.end(), std::back_inserter(elsewhere),
                [](const Effect& e) { return !acts_somewhere(e); });
@@ -195,10 +194,11 @@ std::vector<Pose2> Replay::driven(std::size_t index, const std::vector<Effect>& 
     if (by_tracker_) run.seen = seen_beside(recording_.runs[index], run.track, TracedRun::kEvery);
     return std::make_shared<const TracedRun>(std::move(run));
   });
+  World world(r.robot, r.drivetrain, r.floor, scenario_.physics, pushes);
   return driven_near(world, r, pushes, *without);
 }
 
-// The same over a rough floor, whole.
+// The whole run, over a rough floor.
 std::vector<Pose2> Replay::driven_over(std::size_t index, const std::vector<Effect>& effects,
                                        double roughness_m_per_sqrt_m) const {
   const Rig supposed = rig(index, effects);

@@ -1,8 +1,9 @@
 #include "experiment/seen_track.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include <Eigen/Dense>
 
 #include "recording/encoder_clock.h"
 
@@ -16,7 +17,8 @@ constexpr double kSteady_radps = 0.05;
 constexpr double kSteady_mps = 0.02;
 constexpr double kCap = 3;  // median absolute deviations (1.48 of them: a standard deviation)
 constexpr int kRounds = 3;
-constexpr double kLeastHeading_rad = 1e-4;  // scale of the rows of headings beside those of places, per metre
+constexpr double kLeastSpread = 1e-4;  // m and rad: no tracker is better
+constexpr std::size_t kLeastRows = 30;  // of ten steady readings: else nothing is known of clock and point
 
 // What the tracker saw of a reading, beside the replay.
 struct Reading {
@@ -88,6 +90,7 @@ Tracker tracker_of(const std::vector<Reading>& readings) {
     rows.back() << b.turning_radps - a.turning_radps, 0, 0, 0, b.off_rad - a.off_rad;
     i = k;
   }
+  if (rows.size() < kLeastRows) return {};
   Eigen::MatrixXd A(rows.size(), 5);
   for (std::size_t i = 0; i < rows.size(); ++i) A.row(Eigen::Index(i)) = rows[i];
   Eigen::VectorXd weight = Eigen::VectorXd::Ones(A.rows());
@@ -103,7 +106,7 @@ Tracker tracker_of(const std::vector<Reading>& readings) {
     std::vector<double> sorted(left.data(), left.data() + left.size());
     const auto middle = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
-    const double cap = kCap * 1.48 * std::max(*middle, kLeastHeading_rad);
+    const double cap = kCap * 1.48 * std::max(*middle, kLeastSpread);
     for (Eigen::Index i = 0; i < left.size(); ++i) weight[i] = left[i] > cap ? cap / left[i] : 1;
   }
   return {x[0], {x[1], x[2]}};

@@ -7,7 +7,7 @@
 namespace umbsim {
 namespace {
 
-constexpr double kMargin_m = 0.05;  // beyond where anything is felt; more than a robot drives in a sample
+constexpr double kMargin_m = 0.05;  // beyond where anything is felt
 constexpr double kMargin_s = 0.05;  // the same of a push
 
 // Discs outside of which nothing that lies on the floor is felt by a robot whose axle's middle is there.
@@ -93,6 +93,7 @@ std::vector<Pose2> driven_near(World& world, const Rig& rig, const std::vector<P
   // Something happens from here to the next sample.
   const auto happens = [&](std::size_t i) {
     return happenings.near(there(i) * without.track[i]) ||
+           (i + 1 < samples && happenings.near(there(i) * without.track[i + 1])) ||
            (i + 1 < samples && happenings.pushed(time_s(i) - kMargin_s, time_s(i + 1) + kMargin_s));
   };
   while (track.size() < samples) {

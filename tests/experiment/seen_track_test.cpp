@@ -87,6 +87,23 @@ TEST(SeenTrack, IsNotMovedByTheTrackersClockOrPoint) {
   EXPECT_LT(rad, 0.0005);
 }
 
+// Nothing is known of clock and point then; the way off is seen all the same.
+TEST(SeenTrack, FollowsARobotThatNeverGoesSteadily) {
+  RecordedRun run;
+  std::vector<Pose2> track;
+  for (int i = 0; i < 1000; ++i) {
+    const double t = i / kRate_hz;
+    EncoderSample s;
+    s.time_s = t;
+    run.encoders.push_back(s);
+    track.push_back({0.1 * t * t, 0, 0.5 * std::sin(6 * t)});
+    run.truth.push_back({t, {track.back().x_m, 0.002, track.back().theta_rad}});
+  }
+  const std::vector<Pose2> beside = seen_beside(run, track, 10);
+  ASSERT_EQ(beside.size(), 100u);
+  for (std::size_t i = 0; i < beside.size(); ++i) EXPECT_NEAR((beside[i] * track[10 * i]).y_m, 0.002, 1e-9);
+}
+
 TEST(SeenTrack, SaysNothingOfEndPoints) {
   RecordedRun run;
   run.encoders = {{}, {}};
