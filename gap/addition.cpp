@@ -35,6 +35,12 @@ const std::vector<Lookalikes>& lookalikes() {
       {{"encoder_resolution", "encoder_sampling"},
        {"slippery_floor", "tyre_creep", "encoder_latency", "backlash"},
        0.1},
+      // How a place or a push shakes the tyres, and the play behind them, differs between engines.
+      {{"push", "bump", "wheel_lift", "slippery_patch"},
+       {"backlash", "encoder_latency", "tyre_creep", "slippery_floor"},
+       0.01},
+      // A play's ends are stops that each engine makes in its own way.
+      {{"backlash"}, {"tyre_creep", "slippery_floor"}, 0.01},
       // Toed wheels scrub: how tyres give way to it, and the yaw that it takes, differ between tyres.
       {{"wheel_misalignment"}, {"slippery_floor", "tyre_creep", "wheel_radius_difference", "wear"}, 0.25},
       // Counts that get lost look like another radius, and so does what chance takes from them.

@@ -1,11 +1,13 @@
 #include "gap/answer_set.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace umbsim::gap {
 namespace {
 
 constexpr double kGoodPart = 0.3;  // of what a combination explains, for one of its effects alone
+constexpr double kAlikeFaint = 10;  // times the smallest p-value
 constexpr double kHint = 3;        // log evidence of what is too small to be named, or does not pay
 
 bool holds_all(const Fit& fit, const Fit& part) {
@@ -67,8 +69,14 @@ void add_doubtful(const std::vector<Fit>& doubtful, const Fit& none, Diagnosis& 
   if (likeliest) add_to_set(likeliest->name(), d);
 }
 
-void add_faint(const std::string& effect, Diagnosis& d) {
-  if (d.causes.front().name == "none" && d.set.size() == 1) add_to_set(effect, d);
+void add_faint(const std::map<std::string, double>& p_values, const Thresholds& t, Diagnosis& d) {
+  if (d.causes.front().name != "none" || d.set.size() > 1) return;
+  std::vector<std::pair<double, std::string>> likeliest;
+  for (const auto& [effect, p] : p_values) likeliest.push_back({p, effect});
+  std::sort(likeliest.begin(), likeliest.end());
+  for (const auto& [p, effect] : likeliest) {
+    if (p < t.faint && p <= kAlikeFaint * likeliest.front().first) add_to_set(effect, d);
+  }
 }
 
 }  // namespace umbsim::gap

@@ -50,6 +50,12 @@ double sudden_that_may_be_left(const Fit& fit, const Thresholds& t) {
   return fit.is_local() && !shakes ? t.sudden_beside_local : t.sudden_or_late_left;
 }
 
+std::vector<std::string> names_of(const Fit& fit) {
+  std::vector<std::string> names;
+  for (const Family& f : fit.families) names.push_back(f.effect);
+  return names;
+}
+
 Stage stage_of(const Fit& fit) { return find_effect(fit.families.front().effect).stage; }
 
 void find_place(const Model& model, const Fit& fit, Diagnosis& d) {
@@ -107,6 +113,11 @@ double may_be_left(const Fit& fit, double explained, const Thresholds& t) {
   return fit.only_rolls() ? std::min(left, std::max(t.left_by_rolling, beside(t.known_share_of_rolling))) : left;
 }
 
+double enough_to_detect(const std::vector<std::string>& effects, const Thresholds& t) {
+  const auto same_for_all_engines = [](const std::string& e) { return only_rolls(e) || is_demand(e); };
+  return std::all_of(effects.begin(), effects.end(), same_for_all_engines) ? t.detect_rolling : t.detect;
+}
+
 std::vector<Effect> twin_effects(const Fit& fit) {
   std::vector<Effect> effects;
   Eigen::Index at = 0;
@@ -133,9 +144,11 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   say("what no effect explains");
   const double generic_none = generic_gain(model, none) + counts_left(model, none);
   const double lack_none = lack_of_fit(model, none, t);
-  const double gap = std::max({d.causes.front().name == "none" ? 0 : d.causes.front().score, generic_none, lack_none,
-                               sudden_left(model, none, t)});
-  d.detected = gap > t.detect;
+  const Cause& front = d.causes.front();
+  const double named = front.name == "none" ? 0 : front.score;
+  const double not_named = std::max({generic_none, lack_none, sudden_left(model, none, t)});
+  const double gap = std::max(named, not_named);
+  d.detected = not_named > t.detect || named > enough_to_detect(names_of(front.fit), t);
   d.p_value = chi_squared_tail(2 * std::max(0.0, gap), 2);
   d.noise = model.noise();
   d.noise_floor_mm = 1000 * model.noise_floor_m();
@@ -214,7 +227,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     add_what_counts_show(model, none, t, d);
   }
   add_doubtful(found.doubtful, none, d);
-  if (found.faint_p_value < t.faint) add_faint(found.faint, d);
+  add_faint(found.p_values, t, d);
   d.segments = segment_scores(model, none);
   if (d.segments.size() > 12) d.segments.resize(12);
   if (d.detected && !best.families.empty()) {

@@ -12,7 +12,8 @@ namespace umbsim::gap {
 
 /// What the decisions rest on. Tuned on data of its own (docs/gap.md), not on what is diagnosed.
 struct Thresholds {
-  double detect = 8;                 ///< log evidence that a gap needs
+  double detect = 8;                 ///< log evidence that a gap needs,
+  double detect_rolling = 2.5;       ///< and where it is of what only rolls, counts and was asked for: no engines differ
   double effect_cost = 3;            ///< prior log odds against each further effect
   double addition = 10;              ///< log evidence that a further effect needs,
   double addition_share = 0.001;     ///< and the same as a share of what the others gained,
@@ -37,7 +38,7 @@ struct Thresholds {
   double sudden = 40;  ///< log evidence of what is sudden, at a place or a moment, that a difference of engines makes,
   double late = 150;   ///< and the same of readings that do not go with the counts
   double sudden_or_late_left = 0.5;  ///< share of what is explained that may be left of these,
-  double sudden_beside_local = 0.2;  ///< and of what is sudden, where a place or moment is named that is no cable
+  double sudden_beside_local = 0.12;  ///< and of what is sudden, where a place or moment is named that is no cable
   double faint = 0.05;               ///< p-value of a single effect, below which it is in the set beside "none"
   double plainly_shown = 100;        ///< log evidence of counts and commands that leaves no doubt
   double beside_floor = 0.05;        ///< share of the misfit that an effect beside an uneven floor must explain
@@ -47,6 +48,9 @@ struct Thresholds {
 
 /// Log evidence that an explanation may leave before it is called unknown, if it explains `explained`.
 double may_be_left(const Fit& fit, double explained, const Thresholds& thresholds);
+
+/// Log evidence, with prior costs, that effects need to be named where there might be no gap at all.
+double enough_to_detect(const std::vector<std::string>& effects, const Thresholds& thresholds);
 
 /// One explanation of the gap. "none": no fit's families; "unknown": not an effect at all.
 struct Cause {

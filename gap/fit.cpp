@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "gap/lost_by_chance.h"
 #include "gap/model.h"
 
 namespace umbsim::gap {
@@ -45,20 +46,31 @@ Eigen::VectorXd shifted(const Eigen::VectorXd& sd, const Eigen::VectorXd& p) {
 
 }  // namespace
 
+// Whatever else makes the noise, it is not less than what chance makes.
+double Model::log_chance(const std::vector<Effect>& effects) const {
+  if (!noise_likelihood_) return 0;
+  const NoiseModel chance = lost_by_chance(nominal_, effects);
+  NoiseModel noise = noise_;
+  noise.heading_rad2_pm = std::max(noise.heading_rad2_pm, chance.heading_rad2_pm);
+  noise.along_m2_pm = std::max(noise.along_m2_pm, chance.along_m2_pm);
+  const bool less = noise.heading_rad2_pm <= noise_.heading_rad2_pm && noise.along_m2_pm <= noise_.along_m2_pm;
+  return less ? 0 : std::min(0.0, noise_likelihood_(noise) - noise_log_likelihood_);
+}
+
 double Model::log_evidence(const Fit& fit, const std::vector<std::size_t>& runs) const {
   const Eigen::VectorXd sd = joined(nuisance_sd(), prior_sd(fit.families));
   const Evidence e = evidence(fit.grams, runs, first_columns(sd.size()), sd, shifted(sd, fit.p));
-  double searched = 0;
-  for (const Family& f : fit.families) searched += f.search_cost + f.variant_cost;
+  double cost = -fit.log_chance;
+  for (const Family& f : fit.families) cost += f.search_cost + f.variant_cost;
   if (!fit.linear) {
     // The simulator bends: the density where the descent ended, and the width that the derivatives give there.
     double log_density = evidence(fit.grams, runs, first_columns(nuisances()), nuisance_sd()).log_density;
     const Eigen::VectorXd s = sd.tail(fit.p.size());
     const Eigen::MatrixXd width = e.covariance.bottomRightCorner(s.size(), s.size());
     log_density += 0.5 * std::log(std::max(1e-300, width.determinant())) - s.array().log().sum();
-    return log_density - 0.5 * fit.p.cwiseQuotient(s).squaredNorm() - searched;
+    return log_density - 0.5 * fit.p.cwiseQuotient(s).squaredNorm() - cost;
   }
-  double log_density = e.log_density - searched;
+  double log_density = e.log_density - cost;
   // A number that cannot be negative has half a normal for its prior.
   Eigen::Index i = nuisances();
   for (const FreeParameter& p : free_parameters(fit.families)) {
@@ -84,8 +96,11 @@ std::vector<Effect> Model::fitted_on(const Fit& fit, const std::vector<std::size
     other.p[i] = std::clamp(other.p[i], p.min, p.max);
     ++i;
   }
-  if (!fit.linear && all_told) return this->fit(fit.families, other.p, kRoundsAgain, runs).effects();
-  return other.effects();
+  if (fit.linear || !all_told) return other.effects();
+  // Where the simulator bends the derivatives may point off the hill: the better of both starts.
+  const auto density = [&](const Eigen::VectorXd& p) { return density_at(fit.families, p, runs); };
+  const bool astray = density(fit.p) > density(other.p);
+  return this->fit(fit.families, astray ? fit.p : other.p, kRoundsAgain, runs).effects();
 }
 
 void Model::score(Fit& fit) const {
@@ -118,12 +133,15 @@ Fit Model::none() const {
   return fit;
 }
 
-double Model::density_at(const std::vector<Family>& families, const Eigen::VectorXd& p) const {
+double Model::density_at(const std::vector<Family>& families, const Eigen::VectorXd& p,
+                         const std::vector<std::size_t>& some) const {
   Fit fit;
   fit.families = families;
   fit.p = p;
   const Predicted predicted = predict({fit.effects()}).front();
-  return evidence(grams(residuals(predicted), {}), all_runs(), first_columns(nuisances()), nuisance_sd()).log_density;
+  const std::vector<std::size_t> runs = some.empty() ? all_runs() : some;
+  return evidence(grams(residuals(predicted), {}), runs, first_columns(nuisances()), nuisance_sd()).log_density +
+         log_chance(fit.effects());
 }
 
 // The simulator at p and a step from it in every direction.
@@ -202,6 +220,7 @@ Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start
     if (change < 0.1) break;
     fit.p = next;
   }
+  best.log_chance = log_chance(best.effects());
   score(best);
   return best;
 }

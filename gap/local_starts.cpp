@@ -7,6 +7,8 @@
 namespace umbsim::gap {
 namespace {
 
+constexpr double kAside = 0.55;  // of a patch's radius
+
 std::vector<double> geometric(double from, double to, double ratio) {
   std::vector<double> all;
   for (double x = from; x <= to; x *= ratio) all.push_back(x);
@@ -65,8 +67,11 @@ Starts lift_starts(bool closely) {
 Starts patch_starts(double grips, bool closely) {
   Starts starts = all_of({geometric(0.4 * grips, 1.05 * grips, 1.05), {0.1, 0.3}, {0}, {0}});
   if (!closely) return starts;
-  const std::vector<double> about{-0.05, 0, 0.05};
-  append(starts, all_of({geometric(0.4 * grips, 1.05 * grips, 1.12), {0.06, 0.1, 0.16, 0.25, 0.4}, about, about}));
+  // Where a wheel felt it lies somewhere in it.
+  for (const double radius_m : {0.06, 0.1, 0.16, 0.25, 0.4}) {
+    const std::vector<double> about{-kAside * radius_m, 0, kAside * radius_m};
+    append(starts, all_of({geometric(0.4 * grips, 1.05 * grips, 1.12), {radius_m}, about, about}));
+  }
   return starts;
 }
 

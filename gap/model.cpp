@@ -63,8 +63,10 @@ Model::Model(const Recording& recording, Simulator simulator, const Scatter& sca
   measured_.habits = measured_habits(recording, stretches_, step);
   without_effects_ = predict({{}}).front();
   nominal_ = beside(recording, without_effects_.tracks);
-  const NoiseEstimate estimate = known ? NoiseEstimate{*known, false} : estimate_noise(nominal_);
+  NoiseEstimate estimate = known ? NoiseEstimate{*known, false, {}} : estimate_noise(nominal_);
   noise_ = estimate.noise;
+  noise_likelihood_ = std::move(estimate.log_likelihood);
+  if (noise_likelihood_) noise_log_likelihood_ = noise_likelihood_(noise_);
   replicated_ = estimate.replicated;
   if (roughness_under({}) != 0) {
     without_effects_ = predict({{}}).front();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +37,7 @@ struct Fit {
   Eigen::VectorXd p;           ///< of all families in order
   Eigen::MatrixXd covariance;
   bool linear = true;          ///< the descent ended where the linear model has its optimum
+  double log_chance = 0;       ///< see Model::log_chance; part of the evidence
   double log_evidence = 0;     ///< against no effect and the same nuisances
   double held_out = 0;         ///< sum of log predictive densities of each condition given the others, the same
   double residual = 0;         ///< squared whitened residual at the optimum
@@ -112,8 +114,14 @@ class Model {
   /// No effect at all.
   Fit none() const;
 
-  /// Log density of the data with the families' numbers held at p, against none: how well a start would do.
-  double density_at(const std::vector<Family>& families, const Eigen::VectorXd& p) const;
+  /// Log likelihood that the runs scatter as little as they do, under effects that act by chance, against the noise as
+  /// it was estimated: 0 or less. 0 where no runs were repeated.
+  double log_chance(const std::vector<Effect>& effects) const;
+
+  /// Log density of the data with the families' numbers held at p, against none: how well a start would do. `runs`: that
+  /// count; empty: all.
+  double density_at(const std::vector<Family>& families, const Eigen::VectorXd& p,
+                    const std::vector<std::size_t>& runs = {}) const;
 
   /// Fits the free numbers of the families together, in the simulator. `start`: empty for the families' own. `runs`:
   /// that count; empty: all.
@@ -142,6 +150,8 @@ class Model {
   Predicted without_effects_;
   NominalReplay nominal_;
   NoiseModel noise_;
+  std::function<double(const NoiseModel&)> noise_likelihood_;  // empty where no runs were repeated
+  double noise_log_likelihood_ = 0;  // of the noise as it was estimated
   bool replicated_ = false;
   double noise_floor_m_ = 0;
   std::vector<TrackFilter> filters_;

@@ -154,10 +154,10 @@ NoiseEstimate estimate_noise(const NominalReplay& nominal) {
   start.heading_sd_rad = std::hypot(heading, rounding_m * M_SQRT2 / recording.robot.wheelbase_m);
   const std::vector<Difference> repeated = differences(nominal);
   if (!repeated.empty()) {
-    return {most_likely(start, [&](const NoiseModel& noise) { return replicate_log_likelihood(repeated, noise); }),
-            true};
+    const auto log_likelihood = [repeated](const NoiseModel& noise) { return replicate_log_likelihood(repeated, noise); };
+    return {most_likely(start, log_likelihood), true, log_likelihood};
   }
-  return {recording.truth_kind == "track" ? from_what_is_left(nominal, start) : start, false};
+  return {recording.truth_kind == "track" ? from_what_is_left(nominal, start) : start, false, {}};
 }
 
 }  // namespace umbsim::gap

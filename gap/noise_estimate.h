@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "gap/nominal_replay.h"
 #include "gap/track_filter.h"
 
@@ -8,6 +10,8 @@ namespace umbsim::gap {
 struct NoiseEstimate {
   NoiseModel noise;
   bool replicated = false;  ///< from runs that were repeated; else from what the geometry leaves, or a usual value
+  /// Of any other noise, by the differences of repeated runs; empty where it is not from them.
+  std::function<double(const NoiseModel&)> log_likelihood;
 };
 
 /// The noise of a recording by maximum likelihood, large innovations capped: from the differences of repeated runs,

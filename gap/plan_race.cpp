@@ -86,6 +86,7 @@ struct Field {
   Eigen::MatrixXd noise;
   std::vector<Racer> racers;
   std::vector<std::size_t> effect_of;  // of each signature, its place among the effects
+  std::vector<double> enough;          // score of each effect that finds it
 };
 
 using Truths = std::function<FixedTruth(int draw, RandomStream& random)>;
@@ -111,10 +112,10 @@ void run_one(const Field& field, std::size_t effect, const Truths& truths, Race&
       score = std::max(score, field.racers[i].score(b, field.thresholds.effect_cost));
     }
     Eigen::Index first = 0;
-    const bool found = best.maxCoeff(&first) > field.thresholds.detect;
+    const bool found = best.maxCoeff(&first) > field.enough[std::size_t(first)];
     race.named(row, found ? first : effects) += share;
     for (Eigen::Index j = 0; j < effects; ++j) {
-      if (j == row || best[j] < best[row] || best[j] <= field.thresholds.detect) continue;
+      if (j == row || best[j] < best[row] || best[j] <= field.enough[std::size_t(j)]) continue;
       race.mistaken(row, j) += best[j] > best[row] ? share : share / 2;
     }
   }
@@ -127,7 +128,8 @@ Race empty_race(std::vector<std::string> effects) {
 
 Field field_of(const Race& race, const Eigen::MatrixXd& information, const std::vector<Signature>& signatures,
                const Thresholds& thresholds, const RaceOptions& options) {
-  Field field{information, signatures, thresholds, options, root(information), {}, {}};
+  Field field{information, signatures, thresholds, options, root(information), {}, {}, {}};
+  for (const std::string& e : race.effects) field.enough.push_back(enough_to_detect({e}, thresholds));
   for (const Signature& s : signatures) {
     field.racers.emplace_back(s, information);
     const auto at = std::find(race.effects.begin(), race.effects.end(), s.planned.family.effect);

@@ -12,6 +12,7 @@ namespace umbsim::gap {
 namespace {
 
 constexpr double kAsGood = 1.001;      // held-out error of a combination, over that of something simpler
+constexpr double kLittle = 0.05;       // of what a combination explains: more than that no held-out runs outvote
 constexpr double kOverconfidence = 2;  // evidence is divided by this before it becomes probability
 constexpr double kEqual = 1;           // log evidence
 
@@ -73,7 +74,7 @@ void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const 
     const double counts = model.counts_misfit(front.fit.predicted);
     const auto simpler = std::find_if(causes.begin(), causes.end(), [&](const Cause& c) {
       return !c.fit.families.empty() && c.fit.families.size() < front.fit.families.size() &&
-             model.counts_misfit(c.fit.predicted) < counts + 2 * t.addition;
+             c.score > (1 - kLittle) * front.score && model.counts_misfit(c.fit.predicted) < counts + 2 * t.addition;
     });
     if (simpler == causes.end()) return;
     const Closure with = held_out_closure(model, front.fit);

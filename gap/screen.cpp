@@ -209,6 +209,7 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
       c.start[0] = std::clamp(shown, c.family.parameters[0].min, c.family.parameters[0].max);
     }
     if (families_[f].effect == "slippery_floor") try_frictions(fit, c);
+    c.gain += model_.log_chance({effect_of(c.family, c.start)});
     candidates.push_back(std::move(c));
   }
   offer_local(fit, candidates);

@@ -58,7 +58,7 @@ class Search {
       if (frontier.empty()) break;
       swap_one(*std::max_element(frontier.begin(), frontier.end(), less_evidence), frontier);
     }
-    return {std::move(fits_), std::move(doubtful_), std::move(faint_), faint_p_value_};
+    return {std::move(fits_), std::move(doubtful_), std::move(p_values_)};
   }
 
  private:
@@ -90,9 +90,10 @@ class Search {
     if (base.families.empty() || pays(model_, base, fit, needed, kDoubtful)) doubtful_.push_back(std::move(fit));
   }
 
-  // What the counts speak against may not explain the tracks.
+  // What the counts speak against may not explain the tracks, nor what would have made the runs scatter more than they do.
   bool contradicted(const Fit& base, const Fit& fit) const {
-    return model_.counts_misfit(fit.predicted) > model_.counts_misfit(base.predicted) + kContradicted;
+    return fit.log_chance < -kContradicted / 2 ||
+           model_.counts_misfit(fit.predicted) > model_.counts_misfit(base.predicted) + kContradicted;
   }
 
   bool large_enough(const Fit& base, const Fit& fit) const {
@@ -105,10 +106,8 @@ class Search {
   void fit_singles() {
     std::vector<Screen::Candidate> singles = screen_.on_top_of(none_);
     for (const Screen::Candidate& c : singles) {
-      if (c.p_value < faint_p_value_) {
-        faint_ = c.family.effect;
-        faint_p_value_ = c.p_value;
-      }
+      const auto [of_effect, fresh] = p_values_.try_emplace(c.family.effect, c.p_value);
+      if (!fresh) of_effect->second = std::min(of_effect->second, c.p_value);
     }
     const double best_gain = singles.empty() ? 0 : singles.front().gain;
     for (std::size_t i = 0; i < singles.size(); ++i) {
@@ -223,8 +222,7 @@ class Search {
   const Fit none_;
   std::vector<Fit> fits_;
   std::vector<Fit> doubtful_;
-  std::string faint_;
-  double faint_p_value_ = 1;
+  std::map<std::string, double> p_values_;
 };
 
 }  // namespace

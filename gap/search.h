@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -49,8 +50,7 @@ struct Found {
   /// Of effects too small to be told from a difference of engines, and of combinations whose last effect brings less
   /// than it must, but not much less.
   std::vector<Fit> doubtful;
-  std::string faint;  ///< the single effect with the smallest p-value, whatever evidence it has
-  double faint_p_value = 1;
+  std::map<std::string, double> p_values;  ///< of single effects that act in proportion, whatever evidence they have
 };
 
 /// Forward from single effects, to thresholds.most_effects of them.

@@ -41,13 +41,16 @@ TEST(AnswerSet, WhatIsTooSmallStandsBesideNone) {
 }
 
 TEST(AnswerSet, WhatShowsMostStandsBesideNoneAlone) {
+  const Thresholds t;
   Diagnosis d = named(fit_of({}, 100));
-  add_faint("wheelbase", d);
-  EXPECT_THAT(d.set, ElementsAre("none", "wheelbase"));
-  add_faint("wear", d);
-  EXPECT_THAT(d.set, ElementsAre("none", "wheelbase")) << "one is enough";
+  add_faint({{"backlash", 2 * t.faint}}, t, d);
+  EXPECT_THAT(d.set, ElementsAre("none")) << "too much of what chance does, too";
+  add_faint({{"backlash", 0.04}, {"wear", 0.005}, {"wheelbase", 0.001}, {"wheel_radius_scale", 0.02}}, t, d);
+  EXPECT_THAT(d.set, ElementsAre("none", "wheelbase", "wear")) << "the likeliest, and what is hardly less so";
+  add_faint({{"tyre_creep", 1e-9}}, t, d);
+  EXPECT_THAT(d.set, ElementsAre("none", "wheelbase", "wear")) << "not beside anything else";
   Diagnosis found = named(fit_of({"wear"}, 100));
-  add_faint("wheelbase", found);
+  add_faint({{"wheelbase", 0.001}}, t, found);
   EXPECT_THAT(found.set, ElementsAre("wear"));
 }
 

@@ -118,10 +118,10 @@ TEST(PlanRace, OneNumberAgainstNoneInClosedForm) {
   const std::vector<Signature> signatures{one_number("wheelbase", 0, kPrior)};
   const Thresholds t;
   const Race r = race(Eigen::MatrixXd::Constant(1, 1, kInformation), signatures, t, {kSize, kDraws, 1});
-  // b ~ N(a p, a); found where b^2 / (2 (a + 1 / s^2)) - log(1 + a s^2) / 2 - cost > detect.
+  // b ~ N(a p, a); found where b^2 / (2 (a + 1 / s^2)) - log(1 + a s^2) / 2 - cost > what an effect that rolls needs.
   const double a = kInformation;
   const double limit = std::sqrt(2 * (a + 1 / (kPrior * kPrior)) *
-                                 (t.detect + t.effect_cost + 0.5 * std::log(1 + a * kPrior * kPrior)));
+                                 (t.detect_rolling + t.effect_cost + 0.5 * std::log(1 + a * kPrior * kPrior)));
   const auto above = [&](double mean) { return 0.5 * std::erfc((limit - mean) / std::sqrt(2 * a)); };
   const double expected = above(a * kSize) + above(-a * kSize);
   const double sampling_error = 4 * std::sqrt(expected * (1 - expected) / kDraws);

@@ -51,18 +51,18 @@ TEST(Unknown, AWeakPushThatTheCatalogueLacks) {
   EXPECT_EQ(first(without), "unknown");
 }
 
-// Were the radii unequal by little, lost counts would be named in their place: the exclusion decides, and is told so.
+// Were both radii off by little, soft tyres would be named in their place: the exclusion decides, and is told so.
 TEST(Unknown, AnExcludedDoubleIsListedAsSuch) {
-  const Patient p(campaign({effect("wheel_radius_difference", {{"relative", 0.0004}})}, 66));
-  const std::set<std::string> excluded{"wheel_radius_difference"};
+  const Patient p(campaign({effect("wheel_radius_scale", {{"relative", -0.0004}})}, 66));
+  const std::set<std::string> excluded{"wheel_radius_scale"};
   const Diagnosis d = p.diagnosed(excluded);
-  ASSERT_EQ(first(d), "encoder_missed_counts");
+  ASSERT_EQ(first(d), "tyre_compliance");
   const Ties ties = find_ties(p.model, d, excluded, Thresholds{});
   const bool listed = std::any_of(ties.groups.begin(), ties.groups.end(), [](const std::vector<std::string>& g) {
-    return std::count(g.begin(), g.end(), "wheel_radius_difference") > 0;
+    return std::count(g.begin(), g.end(), "wheel_radius_scale") > 0;
   });
   EXPECT_TRUE(listed);
-  EXPECT_EQ(std::count(ties.members.begin(), ties.members.end(), "wheel_radius_difference"), 0);
+  EXPECT_EQ(std::count(ties.members.begin(), ties.members.end(), "wheel_radius_scale"), 0);
 }
 
 }  // namespace
