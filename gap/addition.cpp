@@ -41,6 +41,8 @@ const std::vector<Lookalikes>& lookalikes() {
        0.01},
       // A play's ends are stops that each engine makes in its own way.
       {{"backlash"}, {"tyre_creep", "slippery_floor"}, 0.01},
+      // Eccentric wheels heave the robot and shift its load: when tyres let go in turns differs between engines.
+      {{"wheel_eccentricity"}, {"slippery_patch", "wheel_lift", "slippery_floor", "tyre_creep"}, 0.05},
       // Toed wheels scrub: how tyres give way to it, and the yaw that it takes, differ between tyres.
       {{"wheel_misalignment"}, {"slippery_floor", "tyre_creep", "wheel_radius_difference", "wear"}, 0.25},
       // Counts that get lost look like another radius, and so does what chance takes from them.

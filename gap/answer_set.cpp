@@ -7,6 +7,7 @@ namespace umbsim::gap {
 namespace {
 
 constexpr double kGoodPart = 0.3;  // of what a combination explains, for one of its effects alone
+constexpr std::size_t kMostFaint = 2;
 constexpr double kAlikeFaint = 10;  // times the smallest p-value
 constexpr double kHint = 3;        // log evidence of what is too small to be named, or does not pay
 
@@ -74,6 +75,7 @@ void add_faint(const std::map<std::string, double>& p_values, const Thresholds& 
   std::vector<std::pair<double, std::string>> likeliest;
   for (const auto& [effect, p] : p_values) likeliest.push_back({p, effect});
   std::sort(likeliest.begin(), likeliest.end());
+  if (likeliest.size() > kMostFaint) likeliest.resize(kMostFaint);
   for (const auto& [p, effect] : likeliest) {
     if (p < t.faint && p <= kAlikeFaint * likeliest.front().first) add_to_set(effect, d);
   }

@@ -21,8 +21,8 @@ void add_what_counts_show(const Model& model, const Fit& none, const Thresholds&
 /// likeliest single effect that is too small; else the first cause with the likeliest effect more.
 void add_doubtful(const std::vector<Fit>& doubtful, const Fit& none, Diagnosis& d);
 
-/// Adds the single effect that shows most where none is named and nothing else is in the set, and those that hardly show
-/// less: smaller than anything that these runs can prove. `p_values`: of each effect.
+/// Adds the single effect that shows most where none is named and nothing else is in the set, and the next if it hardly
+/// shows less: smaller than anything that these runs can prove. `p_values`: of each effect.
 void add_faint(const std::map<std::string, double>& p_values, const Thresholds& thresholds, Diagnosis& d);
 
 }  // namespace umbsim::gap

@@ -1,6 +1,7 @@
 #include "gap/diagnose.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "gap/answer_set.h"
@@ -25,10 +26,12 @@ double lack_of_fit(const Model& model, const Fit& fit, const Thresholds& t) {
   return std::max(0.0, fit.misfit - (1 + t.noise_error) * model.rows()) / 2;
 }
 
-// What counts stray from commands, and from the course's demand, beyond their scatter, as log evidence.
+// What counts stray from commands, and from the course's demand, beyond their scatter, as log evidence. A single demand
+// drowns in the scatter of the counts of many runs, so it is also looked at alone.
 double counts_left(const Model& model, const Fit& fit) {
-  const double n = model.count_rows();
-  return std::max(0.0, model.counts_misfit(fit.predicted) - n - 3 * std::sqrt(2 * n)) / 2;
+  const auto beyond = [](double misfit, double n) { return std::max(0.0, misfit - n - 3 * std::sqrt(2 * n)) / 2; };
+  return std::max(beyond(model.counts_misfit(fit.predicted), model.count_rows()),
+                  beyond(model.habits_misfit(fit.predicted), double(std::tuple_size<Habits>::value)));
 }
 
 // A kick that is left at a place or at a moment, as log evidence beyond what a difference of engines makes.

@@ -13,7 +13,7 @@ namespace umbsim::gap {
 /// What the decisions rest on. Tuned on data of its own (docs/gap.md), not on what is diagnosed.
 struct Thresholds {
   double detect = 8;                 ///< log evidence that a gap needs,
-  double detect_rolling = 2.5;       ///< and where it is of what only rolls, counts and was asked for: no engines differ
+  double detect_rolling = 0.5;       ///< and where it is of what only rolls, counts and was asked for: no engines differ
   double effect_cost = 3;            ///< prior log odds against each further effect
   double addition = 10;              ///< log evidence that a further effect needs,
   double addition_share = 0.001;     ///< and the same as a share of what the others gained,

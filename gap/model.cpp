@@ -15,7 +15,8 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr Habits kHabitsSd{0.1, 0.1, 0.05, 0.05, 0.05};  // with which they are measured
+// With which they are measured: what was asked for in turns is in the commands, on a leg their corrections are, too.
+constexpr Habits kHabitsSd{0.1, 0.05, 0.02, 0.05, 0.05};
 constexpr int kFeatureRows = 8;  // three of a run, and five of the recording, which stand with the first run
 
 bool acts_on_counts(const std::vector<Effect>& effects) {
@@ -140,6 +141,10 @@ double Model::counts_misfit(const Predicted& predicted) const {
   double sum = 0;
   for (std::size_t r = 0; r < recording_.runs.size(); ++r) sum += feature_rows(r, measured_, predicted).squaredNorm();
   return sum;
+}
+
+double Model::habits_misfit(const Predicted& predicted) const {
+  return feature_rows(0, measured_, predicted).tail(kFeatureRows - 3).squaredNorm();
 }
 
 double Model::count_rows() const {

@@ -103,6 +103,8 @@ class Model {
   /// Sum of squares, in standard deviations, by which a prediction misses counts against commands.
   double counts_misfit(const Predicted& predicted) const;
   double count_rows() const;
+  /// The part of it that is how the robot was driven and read (recording/habits.h).
+  double habits_misfit(const Predicted& predicted) const;
 
   /// Grams of residual, nuisances and the given columns; further columns of each run alone are integrated out.
   std::vector<RunGram> grams(const std::vector<Eigen::VectorXd>& residual, const std::vector<Eigen::MatrixXd>& columns,

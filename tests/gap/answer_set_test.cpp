@@ -49,6 +49,9 @@ TEST(AnswerSet, WhatShowsMostStandsBesideNoneAlone) {
   EXPECT_THAT(d.set, ElementsAre("none", "wheelbase", "wear")) << "the likeliest, and what is hardly less so";
   add_faint({{"tyre_creep", 1e-9}}, t, d);
   EXPECT_THAT(d.set, ElementsAre("none", "wheelbase", "wear")) << "not beside anything else";
+  Diagnosis many = named(fit_of({}, 100));
+  add_faint({{"backlash", 0.003}, {"wear", 0.001}, {"wheelbase", 0.002}}, t, many);
+  EXPECT_THAT(many.set, ElementsAre("none", "wear", "wheelbase")) << "no more than two";
   Diagnosis found = named(fit_of({"wear"}, 100));
   add_faint({{"wheelbase", 0.001}}, t, found);
   EXPECT_THAT(found.set, ElementsAre("wear"));

@@ -74,6 +74,19 @@ TEST(WeakCause, AnIntervalAllowsForTheOtherWheel) {
   EXPECT_LT(other.ci95[0], other.ci95[1]);
 }
 
+// Turns hardly faster than declared move no robot otherwise: only the commands show them.
+TEST(WeakCause, TurnsALittleFasterThanDeclared) {
+  const std::vector<Effect> faster{effect("fast_turning", {{"factor", 1.15}})};
+  const Patient p(campaign(faster, 75));
+  const Diagnosis d = p.diagnosed();
+  ASSERT_EQ(d.causes.front().name, "fast_turning");
+  const ParameterEstimate e = estimate(d, "factor");
+  EXPECT_NEAR(e.value, 1.15, 0.02);
+  EXPECT_TRUE(holds(e, 1.15));
+  const Diagnosis without = p.diagnosed({"fast_turning"});
+  EXPECT_EQ(without.causes.front().name, "unknown");
+}
+
 // A family with one number, 1 +- 0.1 of its units.
 Fit told(const std::string& variant, double value, double sd) {
   Fit fit;
