@@ -7,9 +7,9 @@ namespace umbsim::gap {
 namespace {
 
 constexpr double kGoodPart = 0.3;  // of what a combination explains, for one of its effects alone
-constexpr std::size_t kMostFaint = 2;
-constexpr double kAlikeFaint = 10;  // times the smallest p-value
 constexpr double kHint = 3;        // log evidence of what is too small to be named, or does not pay
+constexpr std::size_t kMostFaint = 2;  // effects that stand beside "none", whatever evidence they have
+constexpr double kAlikeFaint = 10;     // times the smallest p-value
 
 bool holds_all(const Fit& fit, const Fit& part) {
   return std::all_of(part.families.begin(), part.families.end(), [&](const Family& f) {
