@@ -40,7 +40,7 @@ const std::vector<Lookalikes>& lookalikes() {
        {"backlash", "encoder_latency", "tyre_creep", "slippery_floor"},
        0.01},
       // A play's ends are stops that each engine makes in its own way.
-      {{"backlash"}, {"tyre_creep", "slippery_floor"}, 0.01},
+      {{"backlash"}, {"tyre_creep", "slippery_floor", "push", "wheel_lift", "slippery_patch"}, 0.01},
       // Eccentric wheels heave the robot and shift its load: when tyres let go in turns differs between engines.
       {{"wheel_eccentricity"}, {"slippery_patch", "wheel_lift", "slippery_floor", "tyre_creep"}, 0.05},
       // Toed wheels scrub: how tyres give way to it, and the yaw that it takes, differ between tyres.
@@ -112,6 +112,7 @@ Needed addition_needed(const Model& model, const Fit& base, const Fit& none, con
   needed.gained = gained;
   needed.left = left;
   needed.everywhere = std::max(own, for_misfit);
+  needed.rolling = std::max(spread * (t.addition + share_that_may_err(base, t) * gained), for_misfit);
   needed.local = std::max(own, t.local_misfit_share * left / 2);
   // Counts and habits are measured as they are: no noise of the tracks, and no misfit of theirs, speaks against them.
   needed.counts = std::max(t.addition + t.counts_share * counts_gained, t.counts_misfit_share * counts_left / 2);
@@ -127,7 +128,8 @@ bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& nee
   // and counts has none: there it is noise that is not as it was thought to be.
   const bool leaves_most = !fit.only_rolls() && excess(model, fit) > kMost * needed.left;
   const bool dear = leaves_most || adds_local(base, fit);
-  if (gain >= extra * (dear ? needed.local : needed.everywhere)) return true;
+  const double everywhere = fit.only_rolls() ? needed.rolling : needed.everywhere;
+  if (gain >= extra * (dear ? needed.local : everywhere)) return true;
   const double counts = (model.counts_misfit(base.predicted) - model.counts_misfit(fit.predicted)) / 2;
   // What tracks speak for mostly they must pay for, unless most of what counts show is at stake.
   const bool by_counts = counts > gain / 2 || counts >= extra * kPlain * needed.counts;

@@ -16,7 +16,8 @@ namespace umbsim::gap {
 namespace {
 
 // With which they are measured: what was asked for in turns is in the commands, on a leg their corrections are, too.
-constexpr Habits kHabitsSd{0.1, 0.05, 0.02, 0.05, 0.05};
+// Between rare samples counters stand still, which no other effect makes them do.
+constexpr Habits kHabitsSd{0.1, 0.05, 0.02, 0.015, 0.05};
 constexpr int kFeatureRows = 8;  // three of a run, and five of the recording, which stand with the first run
 
 bool acts_on_counts(const std::vector<Effect>& effects) {

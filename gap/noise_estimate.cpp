@@ -21,6 +21,10 @@ bool alike(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
   return std::sqrt(square / double(n)) < 0.01 && std::sqrt(square_rad / double(n)) < 0.02;
 }
 
+// A count that gets lost is made up for over several readings: what random walks leave shows whole in samples that are
+// longer apart.
+constexpr double kSeldom_s = 0.5;
+
 // Large innovations count as 4 sigma.
 double robust_log_likelihood(const TrackFilter& filter, const Eigen::VectorXd& column) {
   const Eigen::VectorXd white = filter.whiten(column);
@@ -34,19 +38,31 @@ struct Difference {
   std::vector<double> rolled_m;
 };
 
-// Each run once as the first of a pair.
-std::vector<Difference> differences(const NominalReplay& n) {
+// Each run once as the first of a pair, in samples that are at least so long apart.
+std::vector<Difference> differences(const NominalReplay& n, double apart_s) {
   std::vector<Difference> result;
   if (n.recording->path.shape != "square" || n.recording->truth_kind == "endpoints") return result;
   for (std::size_t a = 0; a < n.runs(); ++a) {
     for (std::size_t b = a + 1; b < n.runs(); ++b) {
       if (!n.same_condition(a, b) || !alike(n.tracks[a], n.tracks[b])) continue;
-      const std::size_t samples = std::min(n.truth[a].size(), n.truth[b].size());
-      const Eigen::Index rows = 3 * Eigen::Index(samples);
-      Difference d{track_error(n.tracks[a], n.truth[a]).head(rows) - track_error(n.tracks[b], n.truth[b]).head(rows),
-                   n.tracks[a], n.rolled_m[a]};
-      d.path.resize(samples);
-      d.rolled_m.resize(samples);
+      const Eigen::VectorXd first = track_error(n.tracks[a], n.truth[a]);
+      const Eigen::VectorXd second = track_error(n.tracks[b], n.truth[b]);
+      const auto& times = n.recording->runs[a].truth;
+      Difference d{Eigen::VectorXd(first.size()), {}, {}};
+      Eigen::Index rows = 0;
+      double rolled_m = 0;
+      double next_s = times.front().time_s;
+      for (std::size_t k = 0; k < std::min(n.truth[a].size(), n.truth[b].size()); ++k) {
+        rolled_m += n.rolled_m[a][k];
+        if (times[k].time_s < next_s - 1e-6) continue;
+        d.column.segment<3>(rows) = first.segment<3>(3 * Eigen::Index(k)) - second.segment<3>(3 * Eigen::Index(k));
+        d.path.push_back(n.tracks[a][k]);
+        d.rolled_m.push_back(rolled_m);
+        rows += 3;
+        rolled_m = 0;
+        next_s = times[k].time_s + apart_s;
+      }
+      d.column.conservativeResize(rows);
       result.push_back(std::move(d));
       break;
     }
@@ -152,10 +168,13 @@ NoiseEstimate estimate_noise(const NominalReplay& nominal) {
   NoiseModel start;
   start.position_sd_m = std::hypot(position, rounding_m / M_SQRT2);
   start.heading_sd_rad = std::hypot(heading, rounding_m * M_SQRT2 / recording.robot.wheelbase_m);
-  const std::vector<Difference> repeated = differences(nominal);
+  const std::vector<Difference> repeated = differences(nominal, 0);
   if (!repeated.empty()) {
-    const auto log_likelihood = [repeated](const NoiseModel& noise) { return replicate_log_likelihood(repeated, noise); };
-    return {most_likely(start, log_likelihood), true, log_likelihood};
+    const auto log_likelihood = [&](const NoiseModel& noise) { return replicate_log_likelihood(repeated, noise); };
+    const auto of_walks = [seldom = differences(nominal, kSeldom_s)](const NoiseModel& noise) {
+      return replicate_log_likelihood(seldom, noise);
+    };
+    return {most_likely(start, log_likelihood), true, of_walks};
   }
   return {recording.truth_kind == "track" ? from_what_is_left(nominal, start) : start, false, {}};
 }

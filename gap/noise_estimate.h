@@ -10,7 +10,8 @@ namespace umbsim::gap {
 struct NoiseEstimate {
   NoiseModel noise;
   bool replicated = false;  ///< from runs that were repeated; else from what the geometry leaves, or a usual value
-  /// Of any other noise, by the differences of repeated runs; empty where it is not from them.
+  /// Of any other noise, by the differences of repeated runs, in samples that are so long apart that random walks show
+  /// whole; empty where it is not from them.
   std::function<double(const NoiseModel&)> log_likelihood;
 };
 

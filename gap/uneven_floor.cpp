@@ -38,8 +38,10 @@ struct Agreement {
   }
 };
 
+enum class Part { whole, across };  // of a shift, seen from the first of two runs
+
 // Between runs that pass alike (turned: in different directions).
-Agreement agreement(const std::vector<Passes>& runs, bool turned) {
+Agreement agreement(const std::vector<Passes>& runs, bool turned, Part part) {
   Agreement result;
   for (std::size_t a = 0; a < runs.size(); ++a) {
     for (std::size_t b = a + 1; b < runs.size(); ++b) {
@@ -50,7 +52,9 @@ Agreement agreement(const std::vector<Passes>& runs, bool turned) {
         const double apart = std::abs(std::remainder(s.X_WB.theta_rad - other->X_WB.theta_rad, 2 * M_PI));
         if (turned ? apart < kTurned_rad : apart > kAlike_rad) continue;
         auto& [sum, n] = legs[s.leg];
-        sum += s.shift_m.dot(other->shift_m);
+        const Eigen::Vector2d across(-std::sin(s.X_WB.theta_rad), std::cos(s.X_WB.theta_rad));
+        sum +=
+            part == Part::across ? s.shift_m.dot(across) * other->shift_m.dot(across) : s.shift_m.dot(other->shift_m);
         ++n;
       }
       for (const auto& [leg, sum] : legs) {
@@ -156,14 +160,19 @@ std::optional<UnevenFloorFound> find_uneven_floor(const Model& model, const Fit&
     without_ripples(shifts);
     smooth.emplace_back(std::move(shifts));
   }
-  const Agreement turned = agreement(smooth, true);
-  const Agreement alike = agreement(smooth, false);
-  if (int(turned.blocks_m2.size()) < kLeastBlocks || turned.sigmas() < kLeastSigmas) return {};
-  if (turned.mean_m2() < kLeastShare * alike.mean_m2()) return {};
+  const double alike_m2 = agreement(smooth, false, Part::whole).mean_m2();
+  // The way back has its caster where the way there had none, and pitches otherwise; what is across is the roll's.
+  double sigmas = 0;
+  for (const Part part : {Part::whole, Part::across}) {
+    const Agreement turned = agreement(smooth, true, part);
+    const bool enough = int(turned.blocks_m2.size()) >= kLeastBlocks && turned.mean_m2() >= kLeastShare * alike_m2;
+    if (enough && alike_m2 > 0) sigmas = std::max(sigmas, turned.sigmas());
+  }
+  if (sigmas < kLeastSigmas) return {};
   const double height_m = model.recording().robot.wheel_radius_m;
   const double wheelbase_m = model.recording().robot.wheelbase_m;
   UnevenFloorFound found;
-  found.sigmas = turned.sigmas();
+  found.sigmas = sigmas;
   const auto all = rms_and_wavelength(covariance_of(runs, runs.size()), height_m, wheelbase_m);
   found.rms_m = all[0];
   found.wavelength_m = all[1];

@@ -68,8 +68,9 @@ double sampling_ratio(const Recording& recording, const std::vector<std::vector<
       const std::size_t a = s.first + (s.last - s.first) / 4;
       const std::size_t b = s.last - (s.last - s.first) / 4;
       const double per_period = std::abs(double(e[b].left_ticks - e[a].left_ticks)) / double(b - a);
-      if (per_period < 4 * width) continue;
+      if (per_period < 2 * width) continue;
       double still = 0;
+      bool begun = false;  // with a change: how long counters stood still before the first one is not known
       for (std::size_t i = a + 1; i <= b; ++i) {
         const double step = std::abs(double(e[i].left_ticks - e[i - 1].left_ticks));
         if (step == 0 && e[i].right_ticks == e[i - 1].right_ticks) {
@@ -77,10 +78,12 @@ double sampling_ratio(const Recording& recording, const std::vector<std::vector<
           continue;
         }
         // Counts that were held back arrive together; a robot that stood starts slowly.
-        if (step > 0.6 * (still + 1) * per_period) moving += still;
+        if (begun) {
+          moving += step > 0.6 * (still + 1) * per_period ? still + 1 : 1;
+          changes += 1;
+        }
+        begun = true;
         still = 0;
-        moving += 1;
-        changes += 1;
       }
     }
   }

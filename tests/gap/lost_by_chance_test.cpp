@@ -99,6 +99,18 @@ TEST(LostByChance, UnequalRadiiAreNoLostCounts) {
   EXPECT_EQ(without.causes.front().name.find("encoder_missed_counts"), std::string::npos);
 }
 
+// Many lost counts scatter over several readings each: from one reading to the next they seem to scatter less.
+TEST(LostByChance, ManyLostCountsScatterAsTheyMust) {
+  for (const double probability : {0.004, 0.006}) {
+    const Effect lost =
+        effect("encoder_missed_counts", {{"left_probability", probability}, {"right_probability", probability}});
+    const Patient p(campaign({lost}, 74));
+    const double chance = p.model.log_chance({lost});
+    std::cout << "log likelihood of the scatter, were " << probability << " lost: " << chance << "\n";
+    EXPECT_GT(chance, -4);
+  }
+}
+
 TEST(LostByChance, LostCountsScatterAsTheyMust) {
   const Effect lost = effect("encoder_missed_counts", {{"right_probability", 0.001}});
   const Patient p(campaign({lost}, 73));

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "gap/command_features.h"
+#include "recording/coarse_counts.h"
 #include "tests/gap/recordings.h"
 
 namespace umbsim {
@@ -223,6 +224,24 @@ TEST(ReplayOfCommands, HabitsShowAsMuchOfADemandAsTheRecording) {
       std::cout << fmt::format("{} x {}: habit {} {:.3f}, foretold {:.3f}, asked {:.3f}\n", name, factor, i,
                                measured[i], foretold[i], std::log(factor));
       EXPECT_NEAR(foretold[i], measured[i], 0.05);
+    }
+  }
+}
+
+// Counters that are read rarely stand still in between, however coarse they are: nothing else makes moving wheels do so.
+TEST(ReplayOfCommands, RareSamplingShowsInCountsThatStandStill) {
+  for (const double interval_s : {0.02, 0.0222, 0.0241, 0.05, 0.16}) {
+    for (const double ticks : {0.0, 172.0}) {
+      Scenario s = squares(1, 2);
+      s.effects = {effect("encoder_sampling", {{"interval_s", interval_s}})};
+      if (ticks > 0) s.effects.push_back(effect("encoder_resolution", {{"ticks_per_revolution", ticks}}));
+      const Recording recording = run_experiment(s, 0).recording;
+      std::vector<std::vector<Stretch>> all;
+      for (const RecordedRun& run : recording.runs) all.push_back(stretches(run, recording.robot));
+      const double measured = measured_habits(recording, all, count_step(recording))[3];
+      const double truth = std::log(interval_s * recording.encoder_rate_hz);
+      std::cout << fmt::format("{} s, {} ticks: log of the ratio {:.4f} of {:.4f}\n", interval_s, ticks, measured, truth);
+      EXPECT_NEAR(measured, truth, 0.015);
     }
   }
 }

@@ -45,6 +45,19 @@ TEST(UnevenFloor, HeightAndWavelengthFromTheShiftsOfPasses) {
   EXPECT_NEAR(found->wavelength_m, 0.5, 0.35 * 0.5);
 }
 
+// On waves of twice the length from axle to caster, the robot pitches one way there and the other way back.
+TEST(UnevenFloor, WhereTheWayBackPitchesTheOtherWay) {
+  int found = 0;
+  for (const double seed : {1, 2, 3, 4, 5, 6}) {
+    const Effect floor = effect("uneven_floor", {{"rms_m", 0.003}, {"wavelength_m", 0.35}, {"seed", seed}});
+    const Patient p(turned_campaign({floor}, 25));
+    const auto uneven = find_uneven_floor(p.model, p.model.none());
+    std::cout << fmt::format("floor {}: {:.1f} standard errors\n", seed, uneven ? uneven->sigmas : 0.0);
+    found += uneven ? 1 : 0;
+  }
+  EXPECT_EQ(found, 6);
+}
+
 TEST(UnevenFloor, NotOnAFlatFloorNorFromPassesInOneDirection) {
   const Patient flat(turned_campaign({effect("wheelbase", {{"relative", 0.01}})}, 22));
   EXPECT_FALSE(find_uneven_floor(flat.model, flat.model.none()));

@@ -41,6 +41,13 @@ TEST(Unknown, LateCountsAreNoSlowMotor) {
   EXPECT_EQ(first(without), "unknown");
 }
 
+// Late counts move the robot as rare ones do, but do not stand still.
+TEST(Unknown, RareCountsAreNoLateOnes) {
+  const Patient p(campaign({effect("encoder_sampling", {{"interval_s", 0.024}})}, 67));
+  EXPECT_EQ(first(p.diagnosed()), "encoder_sampling");
+  EXPECT_EQ(first(p.diagnosed({"encoder_sampling"})), "unknown");
+}
+
 TEST(Unknown, AWeakPushThatTheCatalogueLacks) {
   const Effect push = effect("push", {{"impulse_newton_seconds", 20}, {"leg", 2}, {"seconds_into_leg", 3}}, "cw-1");
   const Patient p(campaign({push}, 65));
