@@ -46,9 +46,12 @@ Eigen::MatrixXd habit_columns(const Model& model, std::size_t r, const std::vect
     kicks[kRipples][i] = rolled * Eigen::Vector3d(std::cos(theta), -std::sin(theta), 0);
     kicks[kRipples + 1][i] = rolled * Eigen::Vector3d(std::sin(theta), std::cos(theta), 0);
   }
-  for (int w = 0; w < 2; ++w) {
-    kicks[std::size_t(kRipples + 2 + w)] = radius_kicks(model.nominal(), r, w);
-    for (Eigen::Vector3d& k : kicks[std::size_t(kRipples + 2 + w)]) k *= double(r);
+  // Both wheels' radii alike and against each other: the one shows in distances, the other in headings by much more.
+  const Kicks3 left = radius_kicks(model.nominal(), r, 0);
+  const Kicks3 right = radius_kicks(model.nominal(), r, 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    kicks[kRipples + 2][i] = double(r) * (left[i] + right[i]);
+    kicks[kRipples + 3][i] = double(r) * (right[i] - left[i]) / 2;
   }
   Eigen::MatrixXd columns(3 * Eigen::Index(n), kHabits);
   for (int i = 0; i < kHabits; ++i) columns.col(i) = filter.propagate(kicks[std::size_t(i)]);

@@ -47,7 +47,10 @@ std::pair<int, double> leg_at(const std::vector<Stretch>& stretches, double time
 Screen::Screen(const Model& model, const std::set<std::string>& excluded) : model_(model), excluded_(excluded) {
   const Recording& recording = model.recording();
   for (const Family& f : plain_families(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution)) {
-    if (excluded.count(f.effect) == 0 && shown_by_habits(f.effect, model.habits())) families_.push_back(f);
+    if (excluded.count(f.effect) > 0 || !shown_by_habits(f.effect, model.habits())) continue;
+    families_.push_back(f);
+    // Samples that are rarer by a little already lag by up to a period: a longer interval says little of these.
+    if (f.effect == "encoder_sampling") families_.back().parameters[0].step = model.habits()[3];
   }
   try {
     simulate_steps();

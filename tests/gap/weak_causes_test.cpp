@@ -62,6 +62,24 @@ TEST(WeakCause, OneToedWheelOnARoughFloor) {
   EXPECT_EQ(again.diagnosed().causes.front().name, "none");
 }
 
+// Late counts shake the tracks by much and move the robot by little: no error of theirs is a wheelbase.
+TEST(WeakCause, AWheelbaseBesideLateCounts) {
+  const Patient p(
+      campaign({effect("encoder_latency", {{"seconds", 0.02}}), effect("wheelbase", {{"relative", -0.002}})}, 75));
+  const Diagnosis d = p.diagnosed();
+  ASSERT_EQ(d.causes.front().name, "encoder_latency+wheelbase");
+  EXPECT_TRUE(holds(estimate(d, "relative"), -0.002));
+}
+
+// Samples a tenth rarer than the readings lag by anything up to a period already.
+TEST(WeakCause, RareSamplesBesideLateCounts) {
+  const Patient p(campaign(
+      {effect("encoder_latency", {{"seconds", 0.04}}), effect("encoder_sampling", {{"interval_s", 0.0222}})}, 76));
+  const Diagnosis d = p.diagnosed();
+  ASSERT_EQ(d.causes.front().name, "encoder_latency+encoder_sampling");
+  EXPECT_NEAR(estimate(d, "interval_s").value, 0.0222, 0.0005);
+}
+
 // One encoder that loses counts is simpler than two, and hardly differs from two of which one loses few.
 TEST(WeakCause, AnIntervalAllowsForTheOtherWheel) {
   const Patient p(campaign({effect("encoder_missed_counts", {{"left_probability", 0.002}})}, 74));
