@@ -9,7 +9,9 @@ namespace umbsim::gap {
 /// An uneven floor found in what a fit leaves. A robot on a slope stands off the place where its wheels touch, by the
 /// axle's height times the slope; so the floor shifts it by the same vector whenever it passes, whichever way it goes.
 struct UnevenFloorFound {
-  double sigmas = 0;  ///< of the agreement between passes in different directions over its standard error
+  /// Of the agreement between passes in different directions over its standard error: of whole shifts, or of what is
+  /// across the way, whichever is more.
+  double sigmas = 0;
   double rms_m = 0;   ///< of the floor's height
   double wavelength_m = 0;
   double log_sd[2] = {0, 0};  ///< of both, by leaving out runs in turn; the height is unsure by more
