@@ -106,13 +106,14 @@ Needed addition_needed(const Model& model, const Fit& base, const Fit& none, con
   // Where much is left the noise model is too narrow for what it is asked: evidence in units of what is left.
   const double spread = std::max(1.0, base.misfit / model.rows() - t.noise_error);
   const double off = kSignatureError * seen_between(model, none, base) / 2;
-  const double own = spread * (t.addition + std::max(share_that_may_err(base, t) * gained, off));
+  const double share = share_that_may_err(base, t) * gained;
+  const double own = spread * (t.addition + std::max(share, off));
   const double for_misfit = t.misfit_share * left / 2;
   Needed needed;
   needed.gained = gained;
   needed.left = left;
   needed.everywhere = std::max(own, for_misfit);
-  needed.rolling = std::max(spread * (t.addition + share_that_may_err(base, t) * gained), for_misfit);
+  needed.rolling = std::max(spread * (t.addition + share), for_misfit);
   needed.local = std::max(own, t.local_misfit_share * left / 2);
   // Counts and habits are measured as they are: no noise of the tracks, and no misfit of theirs, speaks against them.
   needed.counts = std::max(t.addition + t.counts_share * counts_gained, t.counts_misfit_share * counts_left / 2);
