@@ -1,9 +1,8 @@
 #include "gap/evidence.h"
 
-#include <cmath>
-
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
 
 namespace umbsim::gap {
 
@@ -42,6 +41,32 @@ Evidence evidence(const std::vector<RunGram>& grams, const std::vector<std::size
   e.misfit = yy - b.dot(e.mean);
   e.residual = yy - 2 * b.dot(e.mean) + e.mean.dot(A * e.mean);
   return e;
+}
+
+Evidence evidence(const std::vector<RunGram>& grams, const std::vector<std::size_t>& runs,
+                  const std::vector<int>& columns, const std::vector<Eigen::VectorXd>& prior_sds,
+                  const Eigen::VectorXd& shift) {
+  std::vector<Evidence> all;
+  for (const Eigen::VectorXd& sd : prior_sds) all.push_back(evidence(grams, runs, columns, sd, shift));
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (all[i].log_density > all[best].log_density) best = i;
+  }
+  double sum = 0;
+  for (const Evidence& e : all) sum += std::exp(e.log_density - all[best].log_density);
+  Evidence e = std::move(all[best]);
+  e.log_density += std::log(sum / double(prior_sds.size()));
+  e.prior = best;
+  return e;
+}
+
+std::vector<Eigen::VectorXd> with_more(std::vector<Eigen::VectorXd> prior_sds, const Eigen::VectorXd& more) {
+  for (Eigen::VectorXd& sd : prior_sds) {
+    const Eigen::Index n = sd.size();
+    sd.conservativeResize(n + more.size());
+    sd.tail(more.size()) = more;
+  }
+  return prior_sds;
 }
 
 RunGram integrated_out(const Eigen::MatrixXd& products, int first, const Eigen::VectorXd& prior_sd) {

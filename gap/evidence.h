@@ -20,6 +20,7 @@ struct Evidence {
   Eigen::MatrixXd covariance;  ///< posterior
   double residual = 0;         ///< squared sum of what is left at the mean
   double misfit = 0;           ///< the same with what the mean costs: -2 log of the density but for its normalisation
+  std::size_t prior = 0;       ///< of several, which made y most likely
 };
 
 /// `columns`: indices (>= 1) into the grams' columns, with a prior standard deviation for each; `runs`: which of the
@@ -27,6 +28,15 @@ struct Evidence {
 Evidence evidence(const std::vector<RunGram>& grams, const std::vector<std::size_t>& runs,
                   const std::vector<int>& columns, const Eigen::VectorXd& prior_sd,
                   const Eigen::VectorXd& shift = {});
+
+/// The same where one of several priors holds, each as likely as the others: the density is their mean, all else that of
+/// the prior under which y is most likely.
+Evidence evidence(const std::vector<RunGram>& grams, const std::vector<std::size_t>& runs,
+                  const std::vector<int>& columns, const std::vector<Eigen::VectorXd>& prior_sds,
+                  const Eigen::VectorXd& shift = {});
+
+/// Each prior with the same further standard deviations behind it.
+std::vector<Eigen::VectorXd> with_more(std::vector<Eigen::VectorXd> prior_sds, const Eigen::VectorXd& more);
 
 /// Integrates the columns from `first` on out of the products, with a prior standard deviation for each.
 RunGram integrated_out(const Eigen::MatrixXd& products, int first, const Eigen::VectorXd& prior_sd);

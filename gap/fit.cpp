@@ -12,12 +12,6 @@ namespace {
 
 constexpr int kRoundsAgain = 2;
 
-Eigen::VectorXd joined(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  Eigen::VectorXd c(a.size() + b.size());
-  c << a, b;
-  return c;
-}
-
 std::vector<int> first_columns(Eigen::Index n) {
   std::vector<int> columns;
   for (int i = 1; i <= n; ++i) columns.push_back(i);
@@ -38,8 +32,8 @@ Eigen::VectorXd prior_sd(const std::vector<Family>& families) {
 }
 
 // The derivatives are taken at the fitted numbers: as a shift of the linear model's parameters.
-Eigen::VectorXd shifted(const Eigen::VectorXd& sd, const Eigen::VectorXd& p) {
-  Eigen::VectorXd shift = Eigen::VectorXd::Zero(sd.size());
+Eigen::VectorXd shifted(int nuisances, const Eigen::VectorXd& p) {
+  Eigen::VectorXd shift = Eigen::VectorXd::Zero(nuisances + p.size());
   shift.tail(p.size()) = p;
   return shift;
 }
@@ -58,14 +52,14 @@ double Model::log_chance(const std::vector<Effect>& effects) const {
 }
 
 double Model::log_evidence(const Fit& fit, const std::vector<std::size_t>& runs) const {
-  const Eigen::VectorXd sd = joined(nuisance_sd(), prior_sd(fit.families));
-  const Evidence e = evidence(fit.grams, runs, first_columns(sd.size()), sd, shifted(sd, fit.p));
+  const Eigen::VectorXd shift = shifted(nuisances(), fit.p);
+  const Eigen::VectorXd s = prior_sd(fit.families);
+  const Evidence e = evidence(fit.grams, runs, first_columns(shift.size()), with_more(nuisance_sds(), s), shift);
   double cost = -fit.log_chance;
   for (const Family& f : fit.families) cost += f.search_cost + f.variant_cost;
   if (!fit.linear) {
     // The simulator bends: the density where the descent ended, and the width that the derivatives give there.
-    double log_density = evidence(fit.grams, runs, first_columns(nuisances()), nuisance_sd()).log_density;
-    const Eigen::VectorXd s = sd.tail(fit.p.size());
+    double log_density = evidence(fit.grams, runs, first_columns(nuisances()), nuisance_sds()).log_density;
     const Eigen::MatrixXd width = e.covariance.bottomRightCorner(s.size(), s.size());
     log_density += 0.5 * std::log(std::max(1e-300, width.determinant())) - s.array().log().sum();
     return log_density - 0.5 * fit.p.cwiseQuotient(s).squaredNorm() - cost;
@@ -81,8 +75,9 @@ double Model::log_evidence(const Fit& fit, const std::vector<std::size_t>& runs)
 }
 
 std::vector<Effect> Model::fitted_on(const Fit& fit, const std::vector<std::size_t>& runs) const {
-  const Eigen::VectorXd sd = joined(nuisance_sd(), prior_sd(fit.families));
-  const Evidence e = evidence(fit.grams, runs, first_columns(sd.size()), sd, shifted(sd, fit.p));
+  const Eigen::VectorXd shift = shifted(nuisances(), fit.p);
+  const Eigen::VectorXd s = prior_sd(fit.families);
+  const Evidence e = evidence(fit.grams, runs, first_columns(shift.size()), with_more(nuisance_sds(), s), shift);
   Fit other = fit;
   other.p = e.mean.tail(fit.p.size());
   Eigen::Index i = 0;
@@ -125,7 +120,7 @@ Fit Model::none() const {
   fit.covariance.resize(0, 0);
   fit.predicted = without_effects_;
   fit.grams = grams(residuals(without_effects_), {});
-  const Evidence e = evidence(fit.grams, all_runs(), first_columns(nuisances()), nuisance_sd());
+  const Evidence e = evidence(fit.grams, all_runs(), first_columns(nuisances()), nuisance_sds());
   fit.residual = e.residual;
   fit.misfit = e.misfit;
   fit.nuisance = e.mean;
@@ -140,7 +135,7 @@ double Model::density_at(const std::vector<Family>& families, const Eigen::Vecto
   fit.p = p;
   const Predicted predicted = predict({fit.effects()}).front();
   const std::vector<std::size_t> runs = some.empty() ? all_runs() : some;
-  return evidence(grams(residuals(predicted), {}), runs, first_columns(nuisances()), nuisance_sd()).log_density +
+  return evidence(grams(residuals(predicted), {}), runs, first_columns(nuisances()), nuisance_sds()).log_density +
          log_chance(fit.effects());
 }
 
@@ -175,7 +170,8 @@ Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start
   const Eigen::Index m = Eigen::Index(free.size());
   fit.p.resize(m);
   for (Eigen::Index i = 0; i < m; ++i) fit.p[i] = start.size() == m ? start[i] : free[std::size_t(i)].start;
-  const Eigen::VectorXd sd = joined(nuisance_sd(), prior_sd(families));
+  const Eigen::VectorXd s = prior_sd(families);
+  const std::vector<Eigen::VectorXd> sds = with_more(nuisance_sds(), s);
   Fit best;
   double best_density = -1e300;
   // What does not act in proportion takes longer, most of all with the softness of the tyres.
@@ -187,10 +183,10 @@ Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start
   const bool from_zero = !any([](const Family& f) { return !f.from_zero; });
   for (int round = 0; round < rounds; ++round) {
     linearise(fit);
-    const Evidence e = evidence(fit.grams, runs, first_columns(sd.size()), sd, shifted(sd, fit.p));
+    const Evidence e = evidence(fit.grams, runs, first_columns(nuisances() + m), sds, shifted(nuisances(), fit.p));
     // Density with the effects held at p: the honest objective of the descent.
-    const Evidence held = evidence(fit.grams, runs, first_columns(nuisances()), nuisance_sd());
-    const double density = held.log_density - 0.5 * fit.p.cwiseQuotient(sd.tail(m)).squaredNorm();
+    const Evidence held = evidence(fit.grams, runs, first_columns(nuisances()), nuisance_sds());
+    const double density = held.log_density - 0.5 * fit.p.cwiseQuotient(s).squaredNorm();
     fit.covariance = e.covariance.bottomRightCorner(m, m);
     fit.residual = held.residual;
     fit.misfit = held.misfit;

@@ -131,10 +131,9 @@ std::vector<int> first_columns(Eigen::Index n) {
   return columns;
 }
 
-// Habits one after another, as long as the next one pays for having been picked among all.
-double shared_density(const Model& model, const std::vector<RunGram>& grams) {
-  Eigen::VectorXd sd(model.nuisances() + kHabits);
-  sd << model.nuisance_sd(), Eigen::VectorXd::Constant(kHabits, kNothing);
+// Habits one after another, as long as the next one pays for having been picked among all. `sd`: of the nuisances and
+// of the habits, where there are none.
+double shared_density(const Model& model, const std::vector<RunGram>& grams, Eigen::VectorXd sd) {
   Eigen::VectorXd wide(sd.size());
   wide << model.unexplained_sd(), habits_sd();
   const auto density = [&] { return evidence(grams, model.all_runs(), first_columns(sd.size()), sd).log_density; };
@@ -166,8 +165,19 @@ Eigen::MatrixXd whitened(const Model& model, std::size_t r, const Eigen::MatrixX
   return white;
 }
 
-double density_of(const Model& model, const std::vector<RunGram>& grams, const Eigen::VectorXd& sd) {
-  return evidence(grams, model.all_runs(), first_columns(sd.size()), sd).log_density;
+// Of the nuisances and of columns of given sizes, under each prior that the nuisances may have.
+double density_of(const Model& model, const std::vector<RunGram>& grams, const Eigen::VectorXd& sizes = {}) {
+  const std::vector<int> columns = first_columns(model.nuisances() + sizes.size());
+  return evidence(grams, model.all_runs(), columns, with_more(model.nuisance_sds(), sizes)).log_density;
+}
+
+// The density of habits under whichever prior of the nuisances gives more of it.
+double density_of_habits(const Model& model, const std::vector<RunGram>& grams) {
+  double most = -1e300;
+  for (const Eigen::VectorXd& sd : with_more(model.nuisance_sds(), Eigen::VectorXd::Constant(kHabits, kNothing))) {
+    most = std::max(most, shared_density(model, grams, sd));
+  }
+  return most - std::log(double(model.nuisance_sds().size()));
 }
 
 // Log evidence for columns that all runs share, given for each run and with the sizes that they may have, on top of a
@@ -179,10 +189,7 @@ double gain_of(const Model& model, const Fit& fit, const std::function<Eigen::Ma
   std::vector<Eigen::MatrixXd> columns(runs);
   tbb::parallel_for(std::size_t(0), runs,
                     [&](std::size_t r) { columns[r] = whitened(model, r, raw(r), residual[r].size()); });
-  Eigen::VectorXd sd(model.nuisances() + sizes.size());
-  sd << model.nuisance_sd(), sizes;
-  return density_of(model, model.grams(residual, columns), sd) -
-         density_of(model, model.grams(residual, {}), model.nuisance_sd());
+  return density_of(model, model.grams(residual, columns), sizes) - density_of(model, model.grams(residual, {}));
 }
 
 }  // namespace
@@ -210,15 +217,11 @@ double generic_gain(const Model& model, const Fit& fit) {
     parts[r].prior_sd = raw.parts_sd;
     radii[r] = {model.own_columns(r).leftCols(2), Eigen::VectorXd::Constant(2, kOwnRadius)};
   });
-  const auto density = [&](const std::vector<RunGram>& grams, const Eigen::VectorXd& sd) {
-    return density_of(model, grams, sd);
-  };
-  Eigen::VectorXd rippled(model.nuisances() + kRipples);
-  rippled << model.nuisance_sd(), Eigen::VectorXd::Constant(kRipples, kRipple_rad);
-  const double best = std::max({shared_density(model, model.grams(residual, habits)),
-                                density(model.grams(residual, {}, radii), model.nuisance_sd()),
-                                density(model.grams(residual, habits, parts), rippled)});
-  return best - std::log(kModels) - density(model.grams(residual, {}), model.nuisance_sd());
+  const Eigen::VectorXd rippled = Eigen::VectorXd::Constant(kRipples, kRipple_rad);
+  const double best = std::max({density_of_habits(model, model.grams(residual, habits)),
+                                density_of(model, model.grams(residual, {}, radii)),
+                                density_of(model, model.grams(residual, habits, parts), rippled)});
+  return best - std::log(kModels) - density_of(model, model.grams(residual, {}));
 }
 
 }  // namespace umbsim::gap

@@ -1,12 +1,12 @@
 #include "gap/model.h"
 
-#include <algorithm>
-#include <cmath>
-#include <set>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
 
 #include "gap/noise_estimate.h"
 #include "gap/noise_floor.h"
@@ -15,13 +15,35 @@
 namespace umbsim::gap {
 namespace {
 
-// With which they are measured: what was asked for in turns is in the commands, on a leg their corrections are, too.
+// With which habits are measured: what was asked for in turns is in the commands, on a leg their corrections are, too.
 // Between rare samples counters stand still, which no other effect makes them do.
 constexpr Habits kHabitsSd{0.1, 0.05, 0.02, 0.015, 0.05};
 constexpr int kFeatureRows = 8;  // three of a run, and five of the recording, which stand with the first run
+constexpr int kLagRow = 2;
 
 bool acts_on_counts(const std::vector<Effect>& effects) {
   return std::any_of(effects.begin(), effects.end(), [](const Effect& e) { return shows_in_counts(*e.info); });
+}
+
+// What keeps a robot on its course makes up for motors that lag: its commands rise more steeply than was asked for.
+Habits habits_sd(const Recording& recording, const std::vector<CommandFeatures>& measured,
+                 const std::vector<CommandFeatures>& foretold) {
+  double lag_s = 0;
+  double runs = 0;
+  for (std::size_t r = 0; r < measured.size(); ++r) {
+    if (!measured[r].known || !foretold[r].known) continue;
+    lag_s += measured[r].lag_s - foretold[r].lag_s;
+    runs += 1;
+  }
+  Habits sd = kHabitsSd;
+  const RecordedPath& p = recording.path;
+  if (runs == 0 || lag_s < 0) return sd;
+  const auto widen = [&](double& s, const std::optional<double>& speed, const std::optional<double>& acceleration) {
+    if (speed && acceleration) s = std::hypot(s, lag_s / runs * *acceleration / *speed);  // in ramps' durations
+  };
+  widen(sd[0], p.linear_speed_mps, p.linear_acceleration_mps2);
+  widen(sd[1], p.angular_speed_radps, p.angular_acceleration_radps2);
+  return sd;
 }
 
 }  // namespace
@@ -59,11 +81,12 @@ Model::Model(const Recording& recording, Simulator simulator, const Scatter& sca
   step_rad_ = step * 2 * M_PI / recording.robot.ticks_per_revolution;
   for (const RecordedRun& run : recording.runs) {
     stretches_.push_back(umbsim::stretches(run, recording.robot));
-    measured_.counted.push_back(
-        run.has_commands ? command_features(run, counted_rad(run, recording.robot), step_rad_) : CommandFeatures{});
+    measured_.counted.push_back(run.has_commands ? command_features(run, counted_rad(run, recording.robot), step_rad_)
+                                                 : CommandFeatures{});
   }
   measured_.habits = measured_habits(recording, stretches_, step);
   without_effects_ = predict({{}}).front();
+  habits_sd_ = habits_sd(recording, measured_.counted, without_effects_.counted);
   nominal_ = beside(recording, without_effects_.tracks);
   NoiseEstimate estimate = known ? NoiseEstimate{*known, false, {}} : estimate_noise(nominal_);
   noise_ = estimate.noise;
@@ -79,7 +102,7 @@ Model::Model(const Recording& recording, Simulator simulator, const Scatter& sca
     filters_.emplace_back(nominal_.tracks[r], nominal_.rolled_m[r], noise_, nominal_.seen[r], nominal_.velocity[r]);
   }
   const Drive drive = [this](const std::vector<Effect>& effects) { return predict({effects}).front().tracks; };
-  nuisances_ = make_nuisances(nominal_, filters_, scatter_, drive, noise_floor_m_, kFeatureRows);
+  nuisances_ = make_nuisances(nominal_, filters_, scatter_, drive, noise_floor_m_, kFeatureRows, kLagRow);
 }
 
 // Each grain of a floor makes wheels that scrub hold or give way. It moves no other robot's mean path.
@@ -111,12 +134,12 @@ std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& se
   return all;
 }
 
-// What differs between two of them, in standard deviations.
-Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const Predicted& b) const {
+// What differs between two of them, in standard deviations; of lags from run to run, or with what they share.
+Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const Predicted& b, double lag_sd_s) const {
   Eigen::VectorXd rows = Eigen::VectorXd::Zero(kFeatureRows);
   if (run == 0) {
     for (std::size_t i = 0; i < a.habits.size(); ++i) {
-      rows[3 + Eigen::Index(i)] = (a.habits[i] - b.habits[i]) / kHabitsSd[i];
+      rows[3 + Eigen::Index(i)] = (a.habits[i] - b.habits[i]) / habits_sd_[i];
     }
   }
   const CommandFeatures& x = a.counted[run];
@@ -124,7 +147,7 @@ Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const P
   if (!measured_.counted[run].known || !x.known || !y.known) return rows;
   const double gain_sd = std::hypot(scatter_.gain, measured_.counted[run].gain_sd);
   rows.head<3>() << (x.left_gain - y.left_gain) / gain_sd, (x.right_gain - y.right_gain) / gain_sd,
-      (x.lag_s - y.lag_s) / scatter_.lag_s;
+      (x.lag_s - y.lag_s) / lag_sd_s;
   return rows;
 }
 
@@ -133,19 +156,20 @@ std::vector<Eigen::VectorXd> Model::residuals(const Predicted& predicted) const 
   tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t r) {
     const Eigen::VectorXd white = filters_[r].whiten(track_error(predicted.tracks[r], nominal_.truth[r]));
     result[r].resize(white.size() + kFeatureRows);
-    result[r] << white, feature_rows(r, measured_, predicted);
+    result[r] << white, feature_rows(r, measured_, predicted, scatter_.run_lag_s);
   });
   return result;
 }
 
 double Model::counts_misfit(const Predicted& predicted) const {
   double sum = 0;
-  for (std::size_t r = 0; r < recording_.runs.size(); ++r) sum += feature_rows(r, measured_, predicted).squaredNorm();
+  for (std::size_t r = 0; r < recording_.runs.size(); ++r)
+    sum += feature_rows(r, measured_, predicted, scatter_.lag_s).squaredNorm();
   return sum;
 }
 
 double Model::habits_misfit(const Predicted& predicted) const {
-  return feature_rows(0, measured_, predicted).tail(kFeatureRows - 3).squaredNorm();
+  return feature_rows(0, measured_, predicted, scatter_.lag_s).tail(kFeatureRows - 3).squaredNorm();
 }
 
 double Model::count_rows() const {
@@ -163,7 +187,8 @@ std::vector<Eigen::MatrixXd> Model::columns(const Predicted& at, const std::vect
     result[r].resize(n + kFeatureRows, raw.cols());
     for (std::size_t j = 0; j < stepped.size(); ++j) {
       raw.col(Eigen::Index(j)) = track_error(at.tracks[r], stepped[j].tracks[r]) / steps[j];
-      result[r].col(Eigen::Index(j)).tail(kFeatureRows) = feature_rows(r, stepped[j], at) / steps[j];
+      result[r].col(Eigen::Index(j)).tail(kFeatureRows) =
+          feature_rows(r, stepped[j], at, scatter_.run_lag_s) / steps[j];
     }
     result[r].topRows(n) = filters_[r].whiten(raw);
   });

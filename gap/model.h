@@ -73,8 +73,10 @@ class Model {
   const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }
   const TrackFilter& filter(std::size_t run) const { return filters_[run]; }
   const Habits& habits() const { return measured_.habits; }
-  int nuisances() const { return int(nuisances_.shared_sd.size()); }
-  const Eigen::VectorXd& nuisance_sd() const { return nuisances_.shared_sd; }
+  int nuisances() const { return int(nuisance_sd().size()); }
+  /// Of another engine's recording, and what else it may be (Nuisances).
+  const Eigen::VectorXd& nuisance_sd() const { return nuisances_.shared_sds.front(); }
+  const std::vector<Eigen::VectorXd>& nuisance_sds() const { return nuisances_.shared_sds; }
   const Eigen::VectorXd& unexplained_sd() const { return nuisances_.unexplained_sd; }
   /// Whitened columns of a run's own nuisances; the first two are the radii of its wheels.
   const Eigen::MatrixXd& own_columns(std::size_t run) const { return nuisances_.own[run]; }
@@ -139,7 +141,7 @@ class Model {
 
  private:
   double roughness_under(const std::vector<Effect>& effects) const;
-  Eigen::VectorXd feature_rows(std::size_t run, const Predicted& a, const Predicted& b) const;
+  Eigen::VectorXd feature_rows(std::size_t run, const Predicted& a, const Predicted& b, double lag_sd_s) const;
   void linearise(Fit& fit) const;
   void score(Fit& fit) const;
 
@@ -150,6 +152,7 @@ class Model {
   std::vector<std::vector<Stretch>> stretches_;
   Predicted measured_;         // what was recorded, without tracks
   Predicted without_effects_;
+  Habits habits_sd_{};         // with which they are measured
   NominalReplay nominal_;
   NoiseModel noise_;
   std::function<double(const NoiseModel&)> noise_likelihood_;  // empty where no runs were repeated

@@ -1,16 +1,18 @@
 #include "gap/nuisances.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include <fmt/format.h>
 
 #include "gap/noise_floor.h"
 
 namespace umbsim::gap {
 namespace {
 
-constexpr int kShared = 6;    // marker (2), clock, creep, slip, frame
+constexpr int kShared = 7;  // marker (2), clock, creep, slip, lag, frame
+constexpr int kCreepColumn = 3;
+constexpr int kLagColumn = 5;
 constexpr int kPerGroup = 5;  // legs, turns in place, rolling turns, heading and sideways along legs
 constexpr int kOwn = 4;       // radii (2), clock, its rate
 constexpr double kCreep = 0.01;
@@ -27,8 +29,7 @@ Groups grouped(const Recording& recording) {
   std::vector<std::string> keys;
   for (const RecordedRun& run : recording.runs) {
     const std::string turn = run.turn.value_or(recording.path.turn);
-    const std::string key =
-        fmt::format("{} {} {}", run.linear_speed_mps.value_or(0), run.payload_kg.value_or(0), turn);
+    const std::string key = fmt::format("{} {} {}", run.linear_speed_mps.value_or(0), run.payload_kg.value_or(0), turn);
     const auto found = std::find(keys.begin(), keys.end(), key);
     g.group_of.push_back(std::size_t(found - keys.begin()));
     if (found != keys.end()) continue;
@@ -40,11 +41,18 @@ Groups grouped(const Recording& recording) {
 
 Eigen::VectorXd shared_sd(const Groups& groups, const Scatter& s, bool tracker_free) {
   Eigen::VectorXd sd(kShared + kPerGroup * Eigen::Index(groups.rolling.size()));
-  sd.head(kShared) << s.marker_m, s.marker_m, s.clock_s, s.creep_across, 1, tracker_free ? s.frame_rad : 0;
+  sd.head(kShared) << s.marker_m, s.marker_m, s.clock_s, s.creep_across, 1, s.lag_s, tracker_free ? s.frame_rad : 0;
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
-    sd.segment(kShared + kPerGroup * Eigen::Index(g), kPerGroup)
-        << (groups.rolling[g] ? s.arc_leg_scale : s.leg_scale), s.turn_scale, s.arc_scale, s.heading_rad_pm, s.lateral;
+    sd.segment(kShared + kPerGroup * Eigen::Index(g), kPerGroup) << (groups.rolling[g] ? s.arc_leg_scale : s.leg_scale),
+        s.turn_scale, s.arc_scale, s.heading_rad_pm, s.lateral;
   }
+  return sd;
+}
+
+// The marker, the clock and the frame stay what they are, whoever made the recording.
+Eigen::VectorXd of_same_engine(Eigen::VectorXd sd, const Scatter& s) {
+  sd.segment(kCreepColumn, 3) *= s.same_engine;
+  sd.tail(sd.size() - kShared) *= s.same_engine;
   return sd;
 }
 
@@ -113,16 +121,19 @@ Eigen::MatrixXd whitened(const TrackFilter& filter, const Eigen::MatrixXd& raw, 
 bool tracker_is_free(const Recording& recording) { return recording.truth_heading_sd_rad > 0.001; }
 
 Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFilter>& filters, const Scatter& scatter,
-                         const Drive& drive, double floor_m, int more_rows) {
+                         const Drive& drive, double floor_m, int more_rows, int lag_row) {
   const Groups groups = grouped(*nominal.recording);
   const bool is_free = tracker_is_free(*nominal.recording);
   Nuisances n;
-  n.shared_sd = shared_sd(groups, scatter, is_free);
-  n.unexplained_sd = n.shared_sd;
+  n.shared_sds = {shared_sd(groups, scatter, is_free)};
+  n.unexplained_sd = Eigen::VectorXd::Zero(n.shared_sds.front().size());
+  if (!is_free) n.shared_sds.push_back(of_same_engine(n.shared_sds.front(), scatter));
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
     const Eigen::Index first = kShared + kPerGroup * Eigen::Index(g);
     // Between turns in place only the moments at which a turn begins and ends roll in an arc: engines differ there.
-    for (int i = 0; i < kPerGroup; ++i) n.unexplained_sd[first + i] *= i == 2 && !groups.rolling[g] ? 1 : kUnexplained;
+    for (int i = 0; i < kPerGroup; ++i) {
+      if (i != 2 || groups.rolling[g]) n.unexplained_sd[first + i] = kUnexplained * n.shared_sds.front()[first + i];
+    }
   }
   n.own_sd.resize(kOwn);
   const double radius = is_free ? scatter.real_radius : scatter.radius;
@@ -135,9 +146,9 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   n.slips_at = friction;
   for (std::size_t r = 0; r < nominal.runs(); ++r) {
     const Eigen::Index samples = Eigen::Index(filters[r].samples());
-    Eigen::MatrixXd raw = Eigen::MatrixXd::Zero(3 * samples, n.shared_sd.size());
+    Eigen::MatrixXd raw = Eigen::MatrixXd::Zero(3 * samples, n.shared_sds.front().size());
     for (Eigen::Index k = 0; k < samples; ++k) {
-      raw(3 * k, 0) = raw(3 * k + 1, 1) = raw(3 * k + 2, 5) = 1;
+      raw(3 * k, 0) = raw(3 * k + 1, 1) = raw(3 * k + 2, 6) = 1;
       raw.block<3, 1>(3 * k, 2) = nominal.velocity[r][std::size_t(k)];
     }
     raw.col(3) = track_error(nominal.tracks[r], crept[r]) / kCreep;
@@ -146,6 +157,8 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
     const Eigen::Index first = kShared + kPerGroup * Eigen::Index(groups.group_of[r]);
     for (int i = 0; i < kPerGroup; ++i) raw.col(first + i) = filters[r].propagate(kicks[std::size_t(i)]);
     n.shared.push_back(whitened(filters[r], raw, more_rows));
+    if (nominal.recording->runs[r].has_commands)
+      n.shared.back()(3 * samples + lag_row, kLagColumn) = 1 / scatter.run_lag_s;
     n.own.push_back(whitened(filters[r], own_columns(nominal, filters[r], r), more_rows));
   }
   return n;

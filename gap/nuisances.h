@@ -27,12 +27,15 @@ struct Scatter {
   double creep_across = 0.03;    ///< sideways creep of the tyres
   double slip_share = 0.2;       ///< displacement by slip under jolts, in noise floors
   double gain = 4e-4;            ///< of counts over commands
-  double lag_s = 0.010;          ///< of counts behind commands
+  double lag_s = 0.010;          ///< of counts behind commands, alike in all runs
+  double run_lag_s = 0.003;      ///< the same from run to run
+  double same_engine = 0.1;      ///< share of what engines differ by that is left where both are the same
 };
 
 /// Columns that are fitted always and credited to nobody. Per run, whitened; outer index: run.
 struct Nuisances {
-  Eigen::VectorXd shared_sd;
+  /// If another engine, or a robot, made the recording; and if this one did, which runs show by how little they stray.
+  std::vector<Eigen::VectorXd> shared_sds;
   Eigen::VectorXd unexplained_sd;       ///< of the same numbers, if errors of no particular cause stood behind them
   std::vector<Eigen::MatrixXd> shared;  ///< one number for all runs
   Eigen::VectorXd own_sd;
@@ -47,8 +50,9 @@ using Drive = std::function<std::vector<std::vector<Pose2>>(const std::vector<Ef
 /// headings as well as a simulated one.
 bool tracker_is_free(const Recording& recording);
 
-/// `floor_m`: the noise floor, for how much slip is nobody's. `more_rows`: zeros below each column.
+/// `floor_m`: the noise floor, for how much slip is nobody's. `more_rows`: below each column, zeros but for the lag of
+/// counts behind commands in the row `lag_row` of these.
 Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFilter>& filters, const Scatter& scatter,
-                         const Drive& drive, double floor_m, int more_rows);
+                         const Drive& drive, double floor_m, int more_rows, int lag_row);
 
 }  // namespace umbsim::gap

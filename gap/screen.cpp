@@ -111,6 +111,20 @@ void Screen::try_frictions(const Fit& fit, Candidate& c) const {
   }
 }
 
+// What counts and commands show is tried as it is: beside another effect the derivatives see little of it.
+void Screen::try_start(const Fit& fit, Candidate& c) const {
+  std::vector<Family> families = fit.families;
+  const double before = model_.density_at(families, fit.p);
+  families.push_back(c.family);
+  Eigen::VectorXd p(fit.p.size() + c.start.size());
+  p << fit.p, c.start;
+  try {
+    c.gain = std::max(c.gain, model_.density_at(families, p) - before - kTryCost);
+  } catch (const RunError&) {
+    // The robot leaves its course.
+  }
+}
+
 // Places and moments where something happened that `fit` leaves.
 void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) const {
   const Kicks kicks = find_kicks(model_, fit);
@@ -165,16 +179,18 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
   const int fixed = model_.nuisances() + int(own);
   std::vector<int> base;
   for (int i = 1; i <= fixed; ++i) base.push_back(i);
-  Eigen::VectorXd base_sd(fixed);
-  base_sd.head(model_.nuisances()) = model_.nuisance_sd();
-  Eigen::Index at = model_.nuisances();
+  Eigen::VectorXd own_sd(own);
+  Eigen::Index at = 0;
   for (const Family& f : fit.families) {
-    for (const FreeParameter& p : f.parameters) base_sd[at++] = p.prior_sd;
+    for (const FreeParameter& p : f.parameters) own_sd[at++] = p.prior_sd;
   }
+  const std::vector<Eigen::VectorXd> base_sds = with_more(model_.nuisance_sds(), own_sd);
   Eigen::VectorXd shift = Eigen::VectorXd::Zero(fixed);
   shift.tail(own) = fit.p;
   const auto runs = model_.all_runs();
-  const Evidence without = evidence(grams, runs, base, base_sd, shift);
+  const Evidence without = evidence(grams, runs, base, base_sds, shift);
+  std::vector<double> misfit_without;
+  for (const Eigen::VectorXd& sd : base_sds) misfit_without.push_back(evidence(grams, runs, base, sd, shift).misfit);
   std::vector<Candidate> candidates;
   for (std::size_t f = 0; f < families_.size(); ++f) {
     const auto [first, count] = range_[f];
@@ -182,12 +198,10 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
                                    [&](const Family& g) { return g.effect == families_[f].effect; });
     if (there) continue;
     std::vector<int> columns = base;
-    Eigen::VectorXd sd(fixed + count);
-    sd << base_sd, prior_sd_.segment(first, count);
     Eigen::VectorXd moved = Eigen::VectorXd::Zero(fixed + count);
     moved.head(fixed) = shift;
     for (int i = 0; i < count; ++i) columns.push_back(fixed + 1 + first + i);
-    const Evidence e = evidence(grams, runs, columns, sd, moved);
+    const Evidence e = evidence(grams, runs, columns, with_more(base_sds, prior_sd_.segment(first, count)), moved);
     Candidate c;
     c.family = families_[f];
     c.start = start_of(families_[f]);
@@ -207,9 +221,10 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
         possible = false;
       }
     }
-    if (possible) c.p_value = chi_squared_tail(without.misfit - e.misfit, count);
+    if (possible) c.p_value = chi_squared_tail(misfit_without[e.prior] - e.misfit, count);
     if (const double shown = shown_start(c.family.effect, model_.habits()); !std::isnan(shown)) {
       c.start[0] = std::clamp(shown, c.family.parameters[0].min, c.family.parameters[0].max);
+      try_start(fit, c);
     }
     if (families_[f].effect == "slippery_floor") try_frictions(fit, c);
     c.gain += model_.log_chance({effect_of(c.family, c.start)});
