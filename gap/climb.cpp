@@ -14,6 +14,8 @@ namespace {
 constexpr double kFirstStep = 0.4;  // of a number, where a search begins
 constexpr int kHalvings = 4;
 constexpr double kOneHill = 2.1;  // first steps, within which a worse start is on the way to the same top
+constexpr double kReachAgain = 2;  // steps of each number, to which a place is looked for again
+constexpr int kClimbsAgain = 2;
 constexpr int kMostTries = 200;   // simulations of all runs in the search for a place
 
 // How well a candidate's numbers do on top of `base`.
@@ -83,6 +85,48 @@ std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& bas
     best = top;
   }
   return best;
+}
+
+Eigen::VectorXd climbed_again(const Model& model, const Fit& base, const Family& more, const Eigen::VectorXd& numbers) {
+  Fit others;
+  others.families.push_back(more);
+  std::vector<double> held(numbers.data(), numbers.data() + numbers.size());
+  Screen::Candidate local;
+  Eigen::Index local_at = 0;
+  Eigen::Index at = 0;
+  for (const Family& f : base.families) {
+    const Eigen::Index n = Eigen::Index(f.parameters.size());
+    if (f.search_cost > 0) {
+      local.family = f;
+      local.start = base.p.segment(at, n);
+      local_at = at;
+    } else {
+      others.families.push_back(f);
+      held.insert(held.end(), base.p.data() + at, base.p.data() + at + n);
+    }
+    at += n;
+  }
+  others.p = Eigen::Map<const Eigen::VectorXd>(held.data(), Eigen::Index(held.size()));
+  local.starts = {local.start};
+  local.reach.resize(local.start.size());
+  for (Eigen::Index i = 0; i < local.start.size(); ++i) {
+    const FreeParameter& p = local.family.parameters[std::size_t(i)];
+    local.reach[i] = kReachAgain * p.step;
+    std::vector<Eigen::VectorXd> more_starts;
+    for (const Eigen::VectorXd& start : local.starts) {
+      for (const double aside : {-1.0, 0.0, 1.0}) {
+        more_starts.push_back(start);
+        more_starts.back()[i] = std::clamp(start[i] + aside * kReachAgain * p.step, p.min, p.max);
+      }
+    }
+    local.starts = std::move(more_starts);
+  }
+  local.climbs = kClimbsAgain;
+  local.any_start = true;
+  Eigen::VectorXd start(base.p.size() + numbers.size());
+  start << base.p, numbers;
+  start.segment(local_at, local.start.size()) = *searched_start(model, others, local, 0);
+  return start;
 }
 
 }  // namespace umbsim::gap

@@ -15,4 +15,9 @@ double keep_best_starts(const Model& model, const Fit& base, Screen::Candidate& 
 std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& base, Screen::Candidate candidate,
                                               double least);
 
+/// Where a fit of `base` with one effect more begins, if a place or moment in `base` was fitted to make up for that
+/// effect, too: its numbers are climbed to anew beside the other, about where they were. `base` holds one such family;
+/// `numbers`: of the effect that comes on top, behind which the rest of `base` stays as it is.
+Eigen::VectorXd climbed_again(const Model& model, const Fit& base, const Family& more, const Eigen::VectorXd& numbers);
+
 }  // namespace umbsim::gap

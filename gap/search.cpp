@@ -22,6 +22,7 @@ constexpr int kRounds = 7;
 constexpr int kFewerRounds = 4;  // what is there already has been fitted
 constexpr std::size_t kSwapsFitted = 2;
 constexpr double kRivals = 0.8;    // share of an effect's gain that the screen must see in another in its place
+constexpr double kHeld = 0.5;      // of what the screen saw of an effect beside a place, that its fit must hold
 constexpr double kShown = 50;      // log evidence of a demand in commands
 constexpr double kFarBehind = 20;  // log evidence
 constexpr double kHint = 0.02;     // of what explains all, below which nothing else is looked at,
@@ -73,6 +74,12 @@ class Search {
       Eigen::VectorXd start(base.p.size() + from->size());
       start << base.p, *from;
       Fit fit = model_.fit(families, start, base.families.empty() ? kRounds : kFewerRounds);
+      // A place may have been fitted so that it makes up for what is only now beside it.
+      const bool less_than_seen = fit.log_evidence < base.log_evidence + kHeld * c.gain;
+      if (base.is_local() && c.family.search_cost == 0 && c.gain > thresholds_.addition && less_than_seen) {
+        Fit again = model_.fit(families, climbed_again(model_, base, c.family, *from), kFewerRounds);
+        if (again.log_evidence > fit.log_evidence) fit = std::move(again);
+      }
       fit.size = displacement_m(fit.predicted.tracks, base.predicted.tracks) / model_.noise_floor_m();
       fit.seen = std::sqrt(seen_between(model_, base, fit) / model_.rows());
       if (contradicted(base, fit)) return std::nullopt;
