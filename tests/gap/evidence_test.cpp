@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <cmath>
 
 #include "core/random.h"
 
@@ -123,6 +122,27 @@ TEST(Evidence, AColumnThatIsIntegratedOutCountsAsIfItWereThere) {
   H.diagonal() += sd.cwiseAbs2().cwiseInverse();
   const Eigen::VectorXd mean = H.ldlt().solve(Z.transpose() * data.stacked_y());
   EXPECT_LT((e.mean - mean.head(2)).norm(), kRoundOff);
+}
+
+// A wide prior for one column, or a narrow one: the data's density is their mean, and what is estimated is under the
+// prior that the data speak for.
+TEST(Evidence, OfSeveralPriorsIsTheirMeanDensity) {
+  const TwoRuns data;
+  const std::vector<int> columns{1, 2};
+  const std::vector<Eigen::VectorXd> sds = with_more(
+      {Eigen::VectorXd::Constant(1, 0.4), Eigen::VectorXd::Constant(1, 0.1)}, Eigen::VectorXd::Constant(1, 0.7));
+  ASSERT_EQ(sds[1].size(), 2);
+  EXPECT_EQ(sds[1][0], 0.1);
+  EXPECT_EQ(sds[1][1], 0.7);
+  const Eigen::MatrixXd Z = data.stacked(columns);
+  double density[2];
+  for (std::size_t i = 0; i < 2; ++i) density[i] = dense_log_density(data.stacked_y(), Z, sds[i]);
+  const Evidence e = evidence(data.grams, {0, 1}, columns, sds);
+  EXPECT_NEAR(e.log_density, density[0] + std::log((1 + std::exp(density[1] - density[0])) / 2), 1e-8);
+  EXPECT_EQ(e.prior, std::size_t(density[1] > density[0] ? 1 : 0));
+  const Evidence one = evidence(data.grams, {0, 1}, columns, sds[e.prior]);
+  EXPECT_EQ(e.mean, one.mean);
+  EXPECT_EQ(e.misfit, one.misfit);
 }
 
 // Tables of the chi-squared distribution.

@@ -62,6 +62,41 @@ TEST(WeakCause, OneToedWheelOnARoughFloor) {
   EXPECT_EQ(again.diagnosed().causes.front().name, "none");
 }
 
+// Recordings of this engine show that no other one made them: then a turn that is off by 0.06 % is no engine's.
+TEST(WeakCause, AWheelbaseThatIsHardlyOff) {
+  const Patient p(campaign({effect("wheelbase", {{"relative", 6e-4}})}, 77));
+  const Diagnosis d = p.diagnosed();
+  ASSERT_EQ(d.causes.front().name, "wheelbase");
+  EXPECT_TRUE(holds(estimate(d, "relative"), 6e-4));
+}
+
+// Tyres that give way sideways as MuJoCo's do, 6 % more than this engine's: such a recording's turns may be off by more.
+TEST(WeakCause, AnotherEnginesTurnsAreNoWheelbase) {
+  const Patient p(campaign({effect("tyre_creep", {{"across", 0.06}}), effect("wheelbase", {{"relative", 2e-4}})}, 78));
+  const Diagnosis d = p.diagnosed({"tyre_creep"});
+  EXPECT_EQ(d.causes.front().name, "none");
+}
+
+TEST(WeakCause, MotorsThatLagByFifteenMilliseconds) {
+  const Patient p(campaign({effect("motor_response", {{"lag_s", 0.015}})}, 79));
+  const Diagnosis d = p.diagnosed();
+  ASSERT_EQ(d.causes.front().name, "motor_response");
+  const ParameterEstimate e = estimate(d, "lag_s");
+  EXPECT_NEAR(e.value, 0.015, 0.15 * 0.015);
+  EXPECT_TRUE(holds(e, 0.015));
+}
+
+// A hole alone is fitted so that it makes up for the radii where it can, and a wheel comes across it or not by millimetres.
+TEST(WeakCause, RadiiBesideALift) {
+  const Effect lift = effect(
+      "wheel_lift", {{"x_m", 2 + 0.17 * std::cos(0.3)}, {"y_m", 0.17 * std::sin(0.3)}, {"length_m", 0.045}});
+  const Patient p(campaign({effect("wheel_radius_scale", {{"relative", -1e-3}}), lift}, 81));
+  const Diagnosis d = p.diagnosed();
+  ASSERT_EQ(d.causes.front().name, "wheel_lift+wheel_radius_scale");
+  EXPECT_TRUE(holds(estimate(d, "relative"), -1e-3));
+  EXPECT_NEAR(estimate(d, "length_m").value, 0.045, 0.009);
+}
+
 // Late counts shake the tracks by much and move the robot by little: no error of theirs is a wheelbase.
 TEST(WeakCause, AWheelbaseBesideLateCounts) {
   const Patient p(
