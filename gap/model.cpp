@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "gap/counts_noise.h"
 #include "gap/noise_estimate.h"
 #include "gap/noise_floor.h"
 #include "recording/coarse_counts.h"
@@ -15,35 +16,11 @@
 namespace umbsim::gap {
 namespace {
 
-// With which habits are measured: what was asked for in turns is in the commands, on a leg their corrections are, too.
-// Between rare samples counters stand still, which no other effect makes them do.
-constexpr Habits kHabitsSd{0.1, 0.05, 0.02, 0.015, 0.05};
 constexpr int kFeatureRows = 8;  // three of a run, and five of the recording, which stand with the first run
 constexpr int kLagRow = 2;
 
 bool acts_on_counts(const std::vector<Effect>& effects) {
   return std::any_of(effects.begin(), effects.end(), [](const Effect& e) { return shows_in_counts(*e.info); });
-}
-
-// What keeps a robot on its course makes up for motors that lag: its commands rise more steeply than was asked for.
-Habits habits_sd(const Recording& recording, const std::vector<CommandFeatures>& measured,
-                 const std::vector<CommandFeatures>& foretold) {
-  double lag_s = 0;
-  double runs = 0;
-  for (std::size_t r = 0; r < measured.size(); ++r) {
-    if (!measured[r].known || !foretold[r].known) continue;
-    lag_s += measured[r].lag_s - foretold[r].lag_s;
-    runs += 1;
-  }
-  Habits sd = kHabitsSd;
-  const RecordedPath& p = recording.path;
-  if (runs == 0 || lag_s < 0) return sd;
-  const auto widen = [&](double& s, const std::optional<double>& speed, const std::optional<double>& acceleration) {
-    if (speed && acceleration) s = std::hypot(s, lag_s / runs * *acceleration / *speed);  // in ramps' durations
-  };
-  widen(sd[0], p.linear_speed_mps, p.linear_acceleration_mps2);
-  widen(sd[1], p.angular_speed_radps, p.angular_acceleration_radps2);
-  return sd;
 }
 
 }  // namespace
@@ -87,6 +64,7 @@ Model::Model(const Recording& recording, Simulator simulator, const Scatter& sca
   measured_.habits = measured_habits(recording, stretches_, step);
   without_effects_ = predict({{}}).front();
   habits_sd_ = habits_sd(recording, measured_.counted, without_effects_.counted);
+  scatter_.gain = gain_scatter(recording, measured_.counted, without_effects_.counted, scatter.gain);
   nominal_ = beside(recording, without_effects_.tracks);
   NoiseEstimate estimate = known ? NoiseEstimate{*known, false, {}} : estimate_noise(nominal_);
   noise_ = estimate.noise;

@@ -1,11 +1,10 @@
 #include "gap/nuisances.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "gap/noise_floor.h"
+#include "gap/run_groups.h"
 
 namespace umbsim::gap {
 namespace {
@@ -18,28 +17,7 @@ constexpr int kOwn = 4;       // radii (2), clock, its rate
 constexpr double kCreep = 0.01;
 constexpr double kUnexplained = 20;  // times the scatter between engines
 
-// Runs of the same speed, payload and kind of turn share their scatter between engines.
-struct Groups {
-  std::vector<bool> rolling;          // turns, of each group
-  std::vector<std::size_t> group_of;  // each run
-};
-
-Groups grouped(const Recording& recording) {
-  Groups g;
-  std::vector<std::string> keys;
-  for (const RecordedRun& run : recording.runs) {
-    const std::string turn = run.turn.value_or(recording.path.turn);
-    const std::string key = fmt::format("{} {} {}", run.linear_speed_mps.value_or(0), run.payload_kg.value_or(0), turn);
-    const auto found = std::find(keys.begin(), keys.end(), key);
-    g.group_of.push_back(std::size_t(found - keys.begin()));
-    if (found != keys.end()) continue;
-    keys.push_back(key);
-    g.rolling.push_back(turn == "arc");
-  }
-  return g;
-}
-
-Eigen::VectorXd shared_sd(const Groups& groups, const Scatter& s, bool tracker_free) {
+Eigen::VectorXd shared_sd(const RunGroups& groups, const Scatter& s, bool tracker_free) {
   Eigen::VectorXd sd(kShared + kPerGroup * Eigen::Index(groups.rolling.size()));
   sd.head(kShared) << s.marker_m, s.marker_m, s.clock_s, s.creep_across, 1, s.lag_s, tracker_free ? s.frame_rad : 0;
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
@@ -122,7 +100,7 @@ bool tracker_is_free(const Recording& recording) { return recording.truth_headin
 
 Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFilter>& filters, const Scatter& scatter,
                          const Drive& drive, double floor_m, int more_rows, int lag_row) {
-  const Groups groups = grouped(*nominal.recording);
+  const RunGroups groups = grouped(*nominal.recording);
   const bool is_free = tracker_is_free(*nominal.recording);
   Nuisances n;
   n.shared_sds = {shared_sd(groups, scatter, is_free)};
