@@ -142,12 +142,12 @@ std::vector<Eigen::VectorXd> Model::residuals(const Predicted& predicted) const 
 double Model::counts_misfit(const Predicted& predicted) const {
   double sum = 0;
   for (std::size_t r = 0; r < recording_.runs.size(); ++r)
-    sum += feature_rows(r, measured_, predicted, scatter_.lag_s).squaredNorm();
+    sum += feature_rows(r, measured_, predicted, scatter_.counts_lag_s).squaredNorm();
   return sum;
 }
 
 double Model::habits_misfit(const Predicted& predicted) const {
-  return feature_rows(0, measured_, predicted, scatter_.lag_s).tail(kFeatureRows - 3).squaredNorm();
+  return feature_rows(0, measured_, predicted, scatter_.counts_lag_s).tail(kFeatureRows - 3).squaredNorm();
 }
 
 double Model::count_rows() const {

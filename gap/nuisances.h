@@ -27,8 +27,9 @@ struct Scatter {
   double creep_across = 0.03;    ///< sideways creep of the tyres
   double slip_share = 0.2;       ///< displacement by slip under jolts, in noise floors
   double gain = 4e-4;            ///< of counts over commands
-  double lag_s = 0.010;          ///< of counts behind commands, alike in all runs
+  double lag_s = 0.006;          ///< of counts behind commands, alike in all runs
   double run_lag_s = 0.003;      ///< the same from run to run
+  double counts_lag_s = 0.010;   ///< the same of any run, where counts alone are judged
   double same_engine = 0.1;      ///< share of what engines differ by that is left where both are the same
 };
 
