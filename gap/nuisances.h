@@ -11,7 +11,7 @@ namespace umbsim::gap {
 /// How far one engine's contact model may be from another's, and a robot from its own runs: standard deviations of
 /// scatter that no effect of the catalogue is needed for.
 struct Scatter {
-  double radius = 5e-5;          ///< of a wheel's radius from run to run
+  double radius = 6e-5;          ///< of a wheel's radius from run to run
   double real_radius = 2e-4;     ///< the same where the tracker is free: a real robot's tyres warm and wear
   double leg_scale = 8e-5;       ///< of distance, per driving condition
   double arc_leg_scale = 3e-4;   ///< the same between rolling turns
