@@ -74,9 +74,10 @@ class Search {
       Eigen::VectorXd start(base.p.size() + from->size());
       start << base.p, *from;
       Fit fit = model_.fit(families, start, base.families.empty() ? kRounds : kFewerRounds);
-      // A place may have been fitted so that it makes up for what is only now beside it.
+      // A place may have been fitted so that it makes up for what is only now beside it. What takes part in the contact
+      // would mend how another engine's robot is shaken there.
       const bool less_than_seen = fit.log_evidence < base.log_evidence + kHeld * c.gain;
-      if (base.is_local() && c.family.search_cost == 0 && c.gain > thresholds_.addition && less_than_seen) {
+      if (base.is_local() && only_rolls(c.family.effect) && c.gain > thresholds_.addition && less_than_seen) {
         Fit again = model_.fit(families, climbed_again(model_, base, c.family, *from), kFewerRounds);
         if (again.log_evidence > fit.log_evidence) fit = std::move(again);
       }
