@@ -4,6 +4,7 @@ import json
 import math
 import statistics
 import sys
+import textwrap
 from pathlib import Path
 
 import yaml
@@ -74,14 +75,13 @@ def table(rows):
     nulls = [r for r in rows if r["truth"] == "none"]
     relative = [e for r in effects if r["right"] for unit, e in r["errors"] if unit == "%"]
     closures = [r["closure"] for r in effects if r["closure"] is not None]
-    lines += [
-        "",
+    summary = (
         f"First cause right in {sum(r['right'] for r in effects)} of {len(effects)}, truth in the set in "
         f"{sum(r['in_set'] for r in effects)} of {len(effects)}, \"none\" in {sum(r['right'] for r in nulls)} of {len(nulls)} "
         f"cases without an effect. Median parameter error {statistics.median(relative):.1f} % (largest {max(relative):.1f} %), "
         f"closure {100 * min(closures):.1f} % to {100 * max(closures):.1f} %, median time {statistics.median(r['wall_s'] for r in rows):.0f} s "
-        f"(longest {max(r['wall_s'] for r in rows):.0f} s).",
-    ]
+        f"(longest {max(r['wall_s'] for r in rows):.0f} s).")
+    lines += ["", *textwrap.wrap(summary, 120)]
     return "\n".join(lines)
 
 

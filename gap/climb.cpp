@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "core/error.h"
@@ -16,9 +15,10 @@ constexpr int kHalvings = 4;
 constexpr double kOneHill = 2.1;  // first steps, within which a worse start is on the way to the same top
 constexpr double kReachAgain = 2;  // steps of each number, to which a place is looked for again
 constexpr int kClimbsAgain = 2;
-constexpr int kMostTries = 200;   // simulations of all runs in the search for a place
+constexpr int kMostTries = 200;  // simulations of all runs in the search for a place
 
-// How well a candidate's numbers do on top of `base`.
+}  // namespace
+
 std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, const Fit& base, const Family& family) {
   std::vector<Family> families = base.families;
   families.push_back(family);
@@ -34,6 +34,8 @@ std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, con
     }
   };
 }
+
+namespace {
 
 // The top of the hill from one start.
 Eigen::VectorXd climbed(const std::function<double(const Eigen::VectorXd&)>& density, const Screen::Candidate& c,

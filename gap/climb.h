@@ -1,10 +1,15 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "gap/search.h"
 
 namespace umbsim::gap {
+
+/// Log density of a family's numbers on top of `base`. Numbers with which the robot cannot be driven are the worst.
+/// `base` is copied; `model` must stay.
+std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, const Fit& base, const Family& family);
 
 /// The candidate with the best few of its starts alone, best first, of each hill one. Returns the best one's log
 /// density on top of `base`. Throws nothing for numbers with which the robot cannot be driven: they are the worst.

@@ -1,8 +1,9 @@
 #include "gap/evidence.h"
 
+#include <cmath>
+
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/chi_squared.hpp>
-#include <cmath>
 
 namespace umbsim::gap {
 

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "gap/climb.h"
 #include "gap/drivable.h"
 #include "gap/local_starts.h"
 #include "gap/search.h"
@@ -11,7 +12,7 @@ namespace umbsim::gap {
 namespace {
 
 constexpr double kLeastKick = 10;  // log evidence below which a place or a moment would not pay
-constexpr double kTryCost = 3;     // log of how many frictions are tried
+constexpr double kTryCost = 3;     // log of how many frictions are tried, and for the width of what is held where it shows
 
 // Effects on how the robot is driven and read are tried where counts or commands show them.
 bool shown_by_habits(const std::string& effect, const Habits& h) {
@@ -88,41 +89,25 @@ void Screen::simulate_steps() {
 // Wheels let go all at once: no derivative says how much grip is missing, so that it is tried, in shares below the
 // friction at which this robot begins to slip on these runs. Some per cent less already moves it by many noise floors.
 void Screen::try_frictions(const Fit& fit, Candidate& c) const {
-  std::vector<Family> families = fit.families;
-  const double before = model_.density_at(families, fit.p);
-  families.push_back(c.family);
-  Eigen::VectorXd p(fit.p.size() + 1);
-  p << fit.p, 0;
   c.gain = -1e9;
   if (model_.slips_at() == 0) return;
+  const double before = model_.density_at(fit.families, fit.p);
+  const auto density = density_on(model_, fit, c.family);
   for (const double less :
        {-0.02, -0.01, 0.0, 0.01, 0.02, 0.035, 0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.6, 0.9, 1.3, 1.8, 2.5}) {
     const double friction = model_.slips_at() * std::exp(-less);
-    p[fit.p.size()] = friction;
-    try {
-      const double gain = model_.density_at(families, p) - before - kTryCost;
-      if (gain <= c.gain) continue;
-      c.gain = gain;
-      c.start[0] = friction;
-      c.reach = vector_of({0.01 * friction});
-    } catch (const RunError&) {
-      // So little grip that the robot leaves its course.
-    }
+    const double gain = density(vector_of({friction})) - before - kTryCost;
+    if (gain <= c.gain) continue;
+    c.gain = gain;
+    c.start[0] = friction;
+    c.reach = vector_of({0.01 * friction});
   }
 }
 
 // What counts and commands show is tried as it is: beside another effect the derivatives see little of it.
 void Screen::try_start(const Fit& fit, Candidate& c) const {
-  std::vector<Family> families = fit.families;
-  const double before = model_.density_at(families, fit.p);
-  families.push_back(c.family);
-  Eigen::VectorXd p(fit.p.size() + c.start.size());
-  p << fit.p, c.start;
-  try {
-    c.gain = std::max(c.gain, model_.density_at(families, p) - before - kTryCost);
-  } catch (const RunError&) {
-    // The robot leaves its course.
-  }
+  const double before = model_.density_at(fit.families, fit.p);
+  c.gain = std::max(c.gain, density_on(model_, fit, c.family)(c.start) - before - kTryCost);
 }
 
 // Places and moments where something happened that `fit` leaves.

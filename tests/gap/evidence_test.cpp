@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <cmath>
 
 #include "core/random.h"
 

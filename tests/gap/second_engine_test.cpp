@@ -9,10 +9,41 @@
 
 #include "gap/check.h"
 #include "gap/diagnosis_json.h"
+#include "tests/gap/patient.h"
 #include "tests/gap/recordings.h"
 
 namespace umbsim::gap {
 namespace {
+
+/// Log evidence of a recording without effects that this engine made it, over that another one did.
+double made_by_this_engine(const Model& model) {
+  const Fit none = model.none();
+  std::vector<int> nuisances;
+  for (int i = 1; i <= model.nuisances(); ++i) nuisances.push_back(i);
+  const auto density = [&](std::size_t prior) {
+    return evidence(none.grams, model.all_runs(), nuisances, model.nuisance_sds()[prior]).log_density;
+  };
+  return density(1) - density(0);
+}
+
+// Nobody says which engine drove: how little turns, legs, tyres and lags stray does.
+TEST(WhoseEngine, RunsWithoutAnEffectSayWhichDroveThem) {
+  for (const std::uint64_t seed : {81u, 82u, 83u}) {
+    const testing::Patient ours(testing::campaign({}, seed));
+    const double gain = made_by_this_engine(ours.model);
+    std::cout << fmt::format("this engine, seed {}: {:+.1f}\n", seed, gain);
+    EXPECT_GT(gain, 0) << seed;
+  }
+  for (const char* name : {"case-01", "case-14"}) {
+    const std::filesystem::path folder = std::filesystem::path(UMBSIM_SHARED_DIR) / "recordings/second-engine" / name;
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+    const Recording recording = read_recording(folder);
+    const Replay replay(scenario_of(recording, folder.string()), recording);
+    const double gain = made_by_this_engine(Model(recording, testing::simulator(replay), Scatter{}));
+    std::cout << fmt::format("another engine, {}: {:+.1f}\n", name, gain);
+    EXPECT_LT(gain, 0) << name;
+  }
+}
 
 struct Labelled {
   const char* folder;

@@ -86,7 +86,8 @@ TEST(WeakCause, MotorsThatLagByFifteenMilliseconds) {
   EXPECT_TRUE(holds(e, 0.015));
 }
 
-// A hole alone is fitted so that it makes up for the radii where it can, and a wheel comes across it or not by millimetres.
+// A hole alone is fitted so that it makes up for the radii where it can, and a wheel comes across it or not by
+// millimetres.
 TEST(WeakCause, RadiiBesideALift) {
   const Effect lift = effect(
       "wheel_lift", {{"x_m", 2 + 0.17 * std::cos(0.3)}, {"y_m", 0.17 * std::sin(0.3)}, {"length_m", 0.045}});
