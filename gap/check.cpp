@@ -7,185 +7,103 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "odometry/dead_reckoning.h"
+#include "gap/check_samples.h"
+#include "gap/check_units.h"
+#include "gap/refusal.h"
 
 namespace umbsim::gap {
 namespace {
 
-constexpr double kFactor = 1.5;  // a scale this far from a suspected one is not taken for it
+constexpr double kUncovered = 0.1;    // of a run's counts, which the truth may miss without a word
+constexpr double kFarFromHome = 0.1;  // of a square's way, by which a run may miss its start without a word
+constexpr double kOtherClock = 1.5;   // durations that differ so much over one way are in other units
+constexpr double kSameWay = 0.3;      // log of how far ways may differ that are thought to be one
 
-// Signed path lengths and rotations of one run, by odometry and by the tracker.
-struct Totals {
-  double counted_m = 0;
-  double tracked_m = 0;
-  double straight_product = 0;  // of counted and tracked forward motion
-  double counted_turn_rad = 0;  // absolute
-  double tracked_turn_rad = 0;
-  double turn_product = 0;      // of counted and tracked rotation
-};
-
-Totals totals(const RecordedRun& run, const RecordedRobot& robot) {
-  Totals t;
-  const double k = 2 * M_PI * robot.wheel_radius_m / robot.ticks_per_revolution;
-  std::size_t i = 0;
-  std::size_t before = 0;
-  // Half-second pieces: noise of single poses does not add up.
-  for (std::size_t j = 1; j < run.truth.size(); ++j) {
-    const TruthSample& a = run.truth[before];
-    const TruthSample& b = run.truth[j];
-    if (b.time_s - a.time_s < 0.5 && j + 1 < run.truth.size()) continue;
-    const std::size_t from = i;
-    while (i + 1 < run.encoders.size() && run.encoders[i].time_s < b.time_s) ++i;
-    const double left = k * double(run.encoders[i].left_ticks - run.encoders[from].left_ticks);
-    const double right = k * double(run.encoders[i].right_ticks - run.encoders[from].right_ticks);
-    const Pose2 moved = inverse(a.X_WB) * b.X_WB;
-    const double forward = (left + right) / 2;
-    const double turned = (right - left) / robot.wheelbase_m;
-    t.counted_m += std::abs(forward);
-    t.tracked_m += std::hypot(moved.x_m, moved.y_m);
-    t.straight_product += forward * moved.x_m;
-    t.counted_turn_rad += std::abs(turned);
-    t.tracked_turn_rad += std::abs(moved.theta_rad);
-    t.turn_product += turned * moved.theta_rad;
-    before = j;
+// How much of what the wheels turn lies after the truth's end or before its start.
+double uncovered(const RecordedRun& run) {
+  double all = 0;
+  double missed = 0;
+  for (std::size_t i = 1; i < run.encoders.size(); ++i) {
+    const EncoderSample& a = run.encoders[i - 1];
+    const EncoderSample& b = run.encoders[i];
+    const double turned =
+        std::abs(double(b.left_ticks - a.left_ticks)) + std::abs(double(b.right_ticks - a.right_ticks));
+    all += turned;
+    if (b.time_s > run.truth.back().time_s || a.time_s < run.truth.front().time_s) missed += turned;
   }
-  return t;
+  return all > 0 ? missed / all : 0;
 }
 
-[[noreturn]] void refuse(const std::string& directory, const RecordedRun& run, const std::string& what) {
-  throw InputError(fmt::format("{}: run {}: {}", directory, run.id, what));
-}
-
-bool near(double ratio, double suspected) { return ratio > suspected / kFactor && ratio < suspected * kFactor; }
-
-void check_jumps(const std::string& directory, const RecordedRun& run, const RecordedRobot& robot) {
-  const double k = 2 * M_PI * robot.wheel_radius_m / robot.ticks_per_revolution;
-  for (int w = 0; w < 2; ++w) {
-    const auto ticks = w == 0 ? &EncoderSample::left_ticks : &EncoderSample::right_ticks;
-    std::vector<double> speeds;
-    for (std::size_t i = 1; i < run.encoders.size(); ++i) {
-      const double dt = run.encoders[i].time_s - run.encoders[i - 1].time_s;
-      speeds.push_back(std::abs(k * double(run.encoders[i].*ticks - run.encoders[i - 1].*ticks)) / dt);
-    }
-    std::vector<double> sorted = speeds;
-    std::sort(sorted.begin(), sorted.end());
-    const double usual = sorted[sorted.size() * 99 / 100];
-    const std::size_t worst = std::size_t(std::max_element(speeds.begin(), speeds.end()) - speeds.begin());
-    if (speeds[worst] > 8 * usual + 2.0) {
-      const auto jump = run.encoders[worst + 1].*ticks - run.encoders[worst].*ticks;
-      const bool wrap =
-          std::abs(std::abs(double(jump)) - 65536) < 3000 || std::abs(std::abs(double(jump)) - 4294967296.0) < 1e6;
-      refuse(directory, run,
-             fmt::format("{} ticks jump by {} between {} s and {} s ({:.1f} m/s; usually below {:.2f} m/s). {}",
-                         w == 0 ? "left" : "right", jump, run.encoders[worst].time_s, run.encoders[worst + 1].time_s,
-                         speeds[worst], usual,
-                         wrap ? "A counter overflowed: unwrap it (add or subtract its range from there on)."
-                              : "Cut the run there, or repair the counter."));
-    }
-  }
-}
-
-void check_gaps(const std::string& directory, const RecordedRun& run) {
-  if (run.truth.size() < 10) return;
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < run.truth.size(); ++i) steps.push_back(run.truth[i].time_s - run.truth[i - 1].time_s);
-  std::vector<double> sorted = steps;
-  std::sort(sorted.begin(), sorted.end());
-  const double usual = sorted[sorted.size() / 2];
-  const std::size_t worst = std::size_t(std::max_element(steps.begin(), steps.end()) - steps.begin());
-  if (steps[worst] > 10 * usual && steps[worst] > 2) {
-    refuse(directory, run,
-           fmt::format("the truth has a gap from {} s to {} s (usually a pose every {:.3g} s). Split the run there, or "
-                       "leave it out.",
-                       run.truth[worst].time_s, run.truth[worst + 1].time_s, usual));
-  }
-  // A jump between two quiet steps; headings in degrees are large at many steps in a row.
-  const auto turned = [&](std::size_t i) {
-    return i > 0 && i < run.truth.size() ? run.truth[i].X_WB.theta_rad - run.truth[i - 1].X_WB.theta_rad : 0.0;
-  };
+double tracked_way_m(const RecordedRun& run) {
+  double way = 0;
   for (std::size_t i = 1; i < run.truth.size(); ++i) {
-    const bool alone = std::abs(turned(i - 1)) < 1.5 && std::abs(turned(i + 1)) < 1.5;
-    if (std::abs(turned(i)) > 3.5 && steps[i - 1] < 1 && alone) {
-      refuse(directory, run,
-             fmt::format("theta_rad jumps by {:.2f} at {} s: unwrap it, or give it in radians.", turned(i),
-                         run.truth[i].time_s));
-    }
+    const Pose2& a = run.truth[i - 1].X_WB;
+    const Pose2& b = run.truth[i].X_WB;
+    way += std::hypot(b.x_m - a.x_m, b.y_m - a.y_m);
   }
+  return way;
 }
 
-void check_scale(const std::string& directory, const RecordedRun& run, const RecordedRobot& robot) {
-  const Totals t = totals(run, robot);
-  if (t.tracked_m < 0.05 && t.tracked_turn_rad < 0.3 && t.counted_m < 0.05 && t.counted_turn_rad < 0.3) {
-    refuse(directory, run, "no motion: neither the wheels nor the tracker moved. Leave the run out.");
+double counted_way_m(const RecordedRun& run, const RecordedRobot& robot) {
+  double way = 0;
+  for (std::size_t i = 1; i < run.encoders.size(); ++i) {
+    const EncoderSample& a = run.encoders[i - 1];
+    const EncoderSample& b = run.encoders[i];
+    way += std::abs(double(b.left_ticks - a.left_ticks + b.right_ticks - a.right_ticks)) / 2;
   }
-  if (t.counted_m < 0.02 && t.counted_turn_rad < 0.1) {
-    const double scale = robot.ticks_per_revolution / (2 * M_PI);
+  return way * 2 * M_PI * robot.wheel_radius_m / robot.ticks_per_revolution;
+}
+
+// Both files must be of the same time: the truth's may not run faster or slower, be of another run's, or of more.
+void check_cover(const Recording& recording, const RecordedRun& run, const std::string& directory) {
+  const double truth_s = run.truth.back().time_s - run.truth.front().time_s;
+  const double counts_s = run.encoders.back().time_s - run.encoders.front().time_s;
+  const double factor = truth_s / counts_s;
+  if (recording.truth_kind == "track" && (factor < 1 / kOtherClock || factor > kOtherClock)) {
+    const double all = counted_way_m(run, recording.robot);
+    if (std::abs(std::log(tracked_way_m(run) / all)) < kSameWay) {
+      refuse(directory, run,
+             fmt::format(
+                 "the truth takes {:.6g} s for the way that the wheels make in {:.6g} s: its time_s is {:.4g} times "
+                 "what it should be. Both files must be in seconds of one clock.",
+                 truth_s, counts_s, factor));
+    }
+  }
+  if (run.truth.back().time_s > run.encoders.back().time_s + 1 ||
+      run.truth.front().time_s < run.encoders.front().time_s - 1) {
     refuse(directory, run,
            fmt::format(
-               "the tracker moved {:.3g} m, the encoders hardly at all ({:.3g} m). Counts expected, radians (times "
-               "{:.4g}) or revolutions (times {:.6g}) given?",
-               t.tracked_m, t.counted_m, scale, robot.ticks_per_revolution));
+               "truth ({:.6g} s to {:.6g} s) and encoders ({:.6g} s to {:.6g} s) do not cover the same time: cut the "
+               "longer one, or set both to one clock in seconds.",
+               run.truth.front().time_s, run.truth.back().time_s, run.encoders.front().time_s,
+               run.encoders.back().time_s));
   }
-  if (t.tracked_m < 0.01 && t.tracked_turn_rad < 0.1)
-    refuse(directory, run, "no motion in the truth, though the wheels turn.");
-  // Path length is taken where there is some; both sides scale alike.
-  const double ratio = t.tracked_m / std::max(t.counted_m, 1e-12);
-  if (t.counted_m > 0.3 || t.tracked_m > 0.3) {
-    const double ticks = robot.ticks_per_revolution;
-    const struct {
-      double factor;
-      std::string meaning;
-    } suspects[] = {
-        {1000, "the truth is in millimetres (divide x and y by 1000), or wheel_radius_m is 1000 times too small"},
-        {100, "the truth is in centimetres (divide by 100), or wheel_radius_m is 100 times too small"},
-        {10, "a scale is wrong by 10: check wheel_radius_m, wheel diameter in its place, or ticks_per_revolution"},
-        {0.001, "wheel_radius_m is in millimetres (divide by 1000), or the truth in kilometres"},
-        {0.01, "wheel_radius_m is in centimetres (divide by 100)"},
-        {0.1, "a scale is wrong by 10: check wheel_radius_m and ticks_per_revolution"},
-        {ticks / (2 * M_PI), "the encoders' columns hold radians, not counts: multiply by ticks_per_revolution / 2 pi"},
-        {0.5, "wheel_radius_m may be the diameter, or ticks_per_revolution half of what it is (quadrature)"},
-        {0.25, "ticks_per_revolution is a quarter of what it is (quadrature: 4 counts a line)"},
-        {4, "ticks_per_revolution is four times what it is (quadrature)"},
-        {2, "wheel_radius_m may be half of what it is, or ticks_per_revolution twice"}};
-    if (ratio < 0.67 || ratio > 1.5) {
-      std::string guess = "check wheel_radius_m, ticks_per_revolution and the units of the truth";
-      double best = std::log(kFactor);
-      for (const auto& s : suspects) {
-        if (near(ratio, s.factor) && std::abs(std::log(ratio / s.factor)) < best) {
-          best = std::abs(std::log(ratio / s.factor));
-          guess = s.meaning;
-        }
-      }
-      refuse(directory, run,
-             fmt::format("the truth's way is {:.4g} times the wheels' ({:.4g} m against {:.4g} m): {}.", ratio,
-                         t.tracked_m, t.counted_m, guess));
-    }
+}
+
+void check_run(const Recording& recording, const RecordedRun& run, const std::string& directory) {
+  const RecordedRobot& robot = recording.robot;
+  const bool tracked = recording.truth_kind == "track";
+  if (run.encoders.size() < 10) refuse(directory, run, "fewer than 10 encoder samples.");
+  if (run.truth.size() < 2) refuse(directory, run, "the truth has fewer than two poses.");
+  check_times(directory, run, recording.encoder_rate_hz);
+  check_cover(recording, run, directory);
+  if (!tracked && uncovered(run) > kUncovered) {
+    refuse(
+        directory, run,
+        fmt::format("its end point is of {:.6g} s, when {:.0f} % of the way were still to come: time_s must be that of "
+                    "the end, in seconds of the encoders' clock.",
+                    run.truth.back().time_s, 100 * uncovered(run)));
   }
-  if (t.tracked_turn_rad > 1 || t.counted_turn_rad > 1) {
-    const double turns = t.tracked_turn_rad / std::max(t.counted_turn_rad, 1e-12);
-    if (near(turns, 180 / M_PI)) refuse(directory, run, "theta_rad is in degrees: multiply by pi / 180.");
-    if (near(turns, M_PI / 180)) refuse(directory, run, "theta_rad is too small by 180 / pi.");
-    if (turns > 1.6 || turns < 0.6) {
-      refuse(
-          directory, run,
-          fmt::format("the truth turns {:.3g} times as much as the wheels: check wheelbase_m and theta_rad.", turns));
-    }
-    // Against each other: the signs. Negating both wheels turns both products around, exchanging them only the turns.
-    if (t.turn_product < 0 && t.straight_product >= 0) {
-      refuse(directory, run,
-             "turns have the wrong sign: left_ticks and right_ticks are swapped; exchange the columns (or "
-             "theta_rad grows clockwise).");
-    }
-    if (t.turn_product > 0 && t.straight_product < 0) {
-      refuse(directory, run,
-             "wheels run backwards though the turns are right: left and right are swapped and both count "
-             "backwards; exchange the columns and negate them.");
-    }
+  check_counts(directory, run, robot);
+  check_truth(directory, run, robot);
+  if (tracked) {
+    check_scale(directory, run, robot);
+    check_places(directory, run, robot, recording.truth_position_sd_m);
+  } else {
+    check_end_points(directory, run, recording);
   }
-  if (t.straight_product < 0) {
-    refuse(directory, run, "the robot drives forward while the wheels count backwards: negate both ticks columns.");
-  }
+  check_commands(directory, run, robot);
+  check_path(directory, run, recording);
 }
 
 }  // namespace
@@ -206,22 +124,23 @@ Recording with_moments_between(Recording recording) {
 }
 
 std::vector<std::string> check_recording(const Recording& recording, const std::string& directory) {
-  for (const RecordedRun& run : recording.runs) {
-    if (run.encoders.size() < 10) refuse(directory, run, "fewer than 10 encoder samples.");
-    if (run.truth.size() < 2) refuse(directory, run, "the truth has fewer than two poses.");
-    if (run.truth.back().time_s > run.encoders.back().time_s + 1 ||
-        run.truth.front().time_s < run.encoders.front().time_s - 1) {
-      refuse(directory, run, "truth and encoders do not cover the same time.");
-    }
-    check_jumps(directory, run, recording.robot);
-    check_gaps(directory, run);
-    // Two end points of a closed path say nothing of its length.
-    if (recording.truth_kind == "track") check_scale(directory, run, recording.robot);
-  }
+  for (const RecordedRun& run : recording.runs) check_run(recording, run, directory);
   std::vector<std::string> limits;
   std::set<std::string> directions;
   std::map<std::string, int> alike;
   for (const RecordedRun& run : recording.runs) {
+    if (const double missed = uncovered(run); missed > kUncovered) {
+      limits.push_back(fmt::format("run {}: the truth covers {:.0f} % of the way only; the rest is not judged", run.id,
+                                   100 * (1 - missed)));
+    }
+    if (recording.truth_kind == "endpoints") {
+      const Pose2 end = inverse(run.truth.front().X_WB) * run.truth.back().X_WB;
+      const double way = counted_way_m(run, recording.robot);
+      if (recording.path.shape == "square" && std::hypot(end.x_m, end.y_m) > kFarFromHome * way) {
+        limits.push_back(fmt::format("run {}: it ends {:.3g} m from its start after {:.3g} m: are the units right?",
+                                     run.id, std::hypot(end.x_m, end.y_m), way));
+      }
+    }
     directions.insert(run.direction);
     ++alike[fmt::format("{} {} {} {} {}", run.direction, run.linear_speed_mps.value_or(0), run.payload_kg.value_or(0),
                         run.turn.value_or(""), run.start_heading_rad.value_or(0))];

@@ -52,12 +52,21 @@ void check_format(YamlMap& top) {
   if (name != kRecordingFormat) format.fail(fmt::format("'{}' is not known (must be '{}')", name, kRecordingFormat));
 }
 
+// A length of a robot's, for which millimetres are a likely mistake.
+double robot_metres(YamlMap& map, const std::string& key) {
+  const YamlValue value = map.at(key);
+  const double length = value.number(Bounds::positive());
+  if (length <= kWheel.max) return length;
+  value.fail(fmt::format("{:g} is out of range (must be {}, in metres: {:g} if this is millimetres)", length,
+                         kWheel.text(), length / 1000));
+}
+
 RecordedRobot read_robot(const YamlValue& value) {
   YamlMap map(value);
   RecordedRobot robot;
   if (const auto urdf = map.find("urdf")) robot.urdf = checked(*urdf, file_name_problem);
-  robot.wheel_radius_m = map.number("wheel_radius_m", kWheel);
-  robot.wheelbase_m = map.number("wheelbase_m", kWheel);
+  robot.wheel_radius_m = robot_metres(map, "wheel_radius_m");
+  robot.wheelbase_m = robot_metres(map, "wheelbase_m");
   robot.ticks_per_revolution = map.number("ticks_per_revolution", kTicks);
   map.finish();
   return robot;

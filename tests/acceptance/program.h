@@ -68,7 +68,7 @@ class Desk {
   /// Runs the program with these words as its arguments.
   Outcome umbsim(const std::vector<std::string>& words) const {
     std::string line = shell_quoted(UMBSIM_PROGRAM);
-    for (const std::string& word : words) line += " " + shell_quoted(word);
+    for (const std::string& word : words) line.append(" ").append(shell_quoted(word));
     return shell(line);
   }
 

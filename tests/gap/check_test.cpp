@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iostream>
 
 #include "core/error.h"
 #include "tests/acceptance/program.h"
@@ -116,29 +117,178 @@ const std::vector<Bad>& bad_recordings() {
        {"quadrature"}},
       {"headings in degrees", every_pose([](Pose2& p) { p.theta_rad *= 180 / M_PI; }), {"degrees"}},
       {"headings wrapped", every_pose([](Pose2& p) { p.theta_rad = wrap_angle(p.theta_rad); }), {"unwrap"}},
-      {"heading clockwise", every_pose([](Pose2& p) { p.theta_rad = -p.theta_rad; }), {"clockwise"}},
+      {"heading clockwise", every_pose([](Pose2& p) { p.theta_rad = -p.theta_rad; }),
+       {"mirrored", "theta_rad grows clockwise", "negate it"}},
+      {"y to the right", every_pose([](Pose2& p) { p.y_m = -p.y_m; }), {"mirrored", "y_m grows to the right"}},
+      {"x and y exchanged", every_pose([](Pose2& p) { std::swap(p.x_m, p.y_m); }),
+       {"mirrored", "x_m and y_m are exchanged"}},
+      {"a left wheel that counts backwards", every_sample([](EncoderSample& s) { s.left_ticks *= -1; }),
+       {"the left wheel counts backwards", "negate left_ticks"}},
+      {"a right wheel that counts backwards", every_sample([](EncoderSample& s) { s.right_ticks *= -1; }),
+       {"the right wheel counts backwards", "negate right_ticks"}},
+      {"a dead counter", every_sample([](EncoderSample& s) { s.left_ticks = 0; }), {"left wheel hardly counts", "dead"}},
+      {"a small jump of the counter",
+       [](Recording& r) {
+         auto& s = r.runs[3].encoders;
+         for (std::size_t i = s.size() / 2; i < s.size(); ++i) s[i].left_ticks += 200;
+       },
+       {"left ticks jump by", "repair the counter"}},
+      {"encoders with a gap",
+       [](Recording& r) {
+         auto& s = r.runs[1].encoders;
+         s.erase(s.begin() + 300, s.begin() + 450);
+       },
+       {"encoders.csv has a gap", "Split the run"}},
+      {"a truth that jumps",
+       [](Recording& r) {
+         auto& t = r.runs[0].truth;
+         for (std::size_t i = t.size() / 2; i < t.size(); ++i) t[i].X_WB.y_m += 0.7;
+       },
+       {"the truth jumps by 0.7", "Cut the run there"}},
+      {"one pose beside the track", [](Recording& r) { r.runs[1].truth[70].X_WB.x_m += 0.3; },
+       {"m beside the track", "Delete the row"}},
+      {"marks mistaken for each other",
+       [](Recording& r) {
+         auto& t = r.runs[2].truth;
+         for (std::size_t i = t.size() / 3; i < t.size(); ++i) t[i].X_WB.theta_rad += M_PI / 2;
+       },
+       {"theta_rad jumps by 1.57", "mistook its marks"}},
+      {"milliseconds",
+       [](Recording& r) {
+         for (RecordedRun& run : r.runs) {
+           for (EncoderSample& s : run.encoders) s.time_s *= 1000;
+           for (TruthSample& t : run.truth) t.time_s *= 1000;
+         }
+       },
+       {"time_s is in milliseconds", "divide by 1000"}},
+      {"a truth in other seconds",
+       [](Recording& r) {
+         for (TruthSample& t : r.runs[0].truth) t.time_s *= 0.1;
+       },
+       {"its time_s is 0.1 times what it should be"}},
+      {"wheelbase in centimetres", [](Recording& r) { r.robot.wheelbase_m *= 100; },
+       {"wheelbase_m is in centimetres", "divide by 100"}},
+      {"half a wheelbase", [](Recording& r) { r.robot.wheelbase_m /= 2; }, {"wheelbase_m is half"}},
+      {"a diameter for the radius", [](Recording& r) { r.robot.wheel_radius_m *= 2; }, {"may be the diameter"}},
+      {"degrees for ticks",
+       every_sample([](EncoderSample& s) {
+         s.left_ticks = std::lround(double(s.left_ticks) * 360 / 2000);
+         s.right_ticks = std::lround(double(s.right_ticks) * 360 / 2000);
+       }),
+       {"degrees, not counts"}},
+      {"directions exchanged",
+       [](Recording& r) {
+         for (RecordedRun& run : r.runs) run.direction = run.direction == "cw" ? "ccw" : "cw";
+       },
+       {"its direction is", "set direction"}},
+      {"a side in millimetres", [](Recording& r) { r.path.side_m *= 1000; },
+       {"path.side_m", "millimetres (divide by 1000)"}},
+      {"a speed off by ten",
+       [](Recording& r) {
+         r.path.linear_speed_mps = 10 * r.path.linear_speed_mps.value();
+         for (RecordedRun& run : r.runs) run.linear_speed_mps.reset();
+       },
+       {"linear_speed_mps", "10 times too large"}},
+      {"commands in metres per second", every_sample([](EncoderSample& s) {
+         s.left_command_radps *= 0.075;
+         s.right_command_radps *= 0.075;
+       }),
+       {"commands are in m/s"}},
+      {"commands in revolutions per minute", every_sample([](EncoderSample& s) {
+         s.left_command_radps *= 60 / (2 * M_PI);
+         s.right_command_radps *= 60 / (2 * M_PI);
+       }),
+       {"revolutions per minute"}},
+      {"commands exchanged",
+       every_sample([](EncoderSample& s) { std::swap(s.left_command_radps, s.right_command_radps); }),
+       {"left_command_radps and right_command_radps are swapped"}},
+      {"commands reversed", every_sample([](EncoderSample& s) {
+         s.left_command_radps *= -1;
+         s.right_command_radps *= -1;
+       }),
+       {"commands have the wrong sign", "Negate"}},
+      {"no commands in their columns",
+       every_sample([](EncoderSample& s) { s.left_command_radps = s.right_command_radps = 0; }),
+       {"all commands are zero", "leave out the columns"}},
   };
   return all;
 }
 
-Recording spoiled(const Bad& bad) {
-  Recording recording = good();
+// Only the first and the last pose of each run.
+Recording end_points(Recording recording) {
+  recording.truth_kind = "endpoints";
+  for (RecordedRun& run : recording.runs) run.truth = {run.truth.front(), run.truth.back()};
+  return recording;
+}
+
+// What a recording of end points shows, too.
+const std::vector<Bad>& bad_end_points() {
+  static const std::vector<Bad> all = {
+      {"wheels that stand still", every_sample([](EncoderSample& s) { s.left_ticks = s.right_ticks = 0; }), {"no motion"}},
+      {"a truth that stands still", [](Recording& r) { r.runs[0].truth[1].X_WB = r.runs[0].truth[0].X_WB; },
+       {"the tracker saw nothing"}},
+      {"swapped wheels", every_sample(swap_wheels), {"left_ticks and right_ticks are swapped"}},
+      {"a left wheel that counts backwards", every_sample([](EncoderSample& s) { s.left_ticks *= -1; }),
+       {"the left wheel counts backwards"}},
+      {"a right wheel that counts backwards", every_sample([](EncoderSample& s) { s.right_ticks *= -1; }),
+       {"the right wheel counts backwards"}},
+      {"a dead counter", every_sample([](EncoderSample& s) { s.right_ticks = 0; }), {"right wheel hardly counts"}},
+      {"truth in millimetres", [](Recording& r) { r.runs[0].truth[1].X_WB = {35, -12, -6.2}; },
+       {"m from its start", "millimetres"}},
+      {"wheel radius off by ten", [](Recording& r) { r.robot.wheel_radius_m *= 10; }, {"wrong by 10"}},
+      {"wheelbase in centimetres", [](Recording& r) { r.robot.wheelbase_m *= 100; }, {"wheelbase_m is in centimetres"}},
+      {"headings wrapped", every_pose([](Pose2& p) { p.theta_rad = wrap_angle(p.theta_rad); }), {"not unwrapped"}},
+      {"headings in degrees", every_pose([](Pose2& p) { p.theta_rad *= 180 / M_PI; }), {"degrees"}},
+      {"radians for ticks",
+       every_sample([](EncoderSample& s) {
+         s.left_ticks = std::lround(double(s.left_ticks) * 2 * M_PI / 2000);
+         s.right_ticks = std::lround(double(s.right_ticks) * 2 * M_PI / 2000);
+       }),
+       {"radians"}},
+      {"an end that is none", [](Recording& r) { r.runs[1].truth[1].time_s /= 2; }, {"its end point is of"}},
+  };
+  return all;
+}
+
+Recording spoiled(const Bad& bad, Recording recording = good()) {
   bad.spoil(recording);
   return recording;
+}
+
+void expect_refused(const Recording& recording, const Bad& bad) {
+  SCOPED_TRACE(bad.name);
+  try {
+    check_recording(recording, "the/folder");
+    ADD_FAILURE() << "taken for a good one";
+  } catch (const InputError& e) {
+    std::cout << bad.name << ": " << e.what() << '\n';
+    acceptance::expect_says(e.what(), bad.says);
+    acceptance::expect_says(e.what(), {"the/folder", "run "});
+  }
 }
 
 TEST(CheckRecording, AGoodOneHasNoLimits) { EXPECT_TRUE(check_recording(good(), "here").empty()); }
 
 TEST(CheckRecording, NamesWhatIsWrong) {
-  for (const Bad& bad : bad_recordings()) {
-    SCOPED_TRACE(bad.name);
-    try {
-      check_recording(spoiled(bad), "the/folder");
-      ADD_FAILURE() << "taken for a good one";
-    } catch (const InputError& e) {
-      acceptance::expect_says(e.what(), bad.says);
-      acceptance::expect_says(e.what(), {"the/folder", "run "});
-    }
+  for (const Bad& bad : bad_recordings()) expect_refused(spoiled(bad), bad);
+}
+
+TEST(CheckRecording, NamesWhatIsWrongWithEndPoints) {
+  EXPECT_NO_THROW(check_recording(end_points(good()), "here"));
+  for (const Bad& bad : bad_end_points()) expect_refused(spoiled(bad, end_points(good())), bad);
+}
+
+// A robot that is pushed, hops or stands still is no fault of the recording.
+TEST(CheckRecording, RealMishapsAreNoFaultsOfTheRecording) {
+  for (const Effect& mishap :
+       {testing::effect("push", {{"leg", 2}, {"seconds_into_leg", 2.0}, {"impulse_newton_seconds", 60}}, "cw-1"),
+        testing::effect("bump", {{"x_m", 1.0}, {"y_m", -0.17}, {"height_m", 0.012}}),
+        testing::effect("encoder_resolution", {{"ticks_per_revolution", 50}}),
+        testing::effect("encoder_sampling", {{"interval_s", 0.2}})}) {
+    Scenario s = testing::squares(1, 2);
+    testing::add_noise(s, 5);
+    s.effects = {mishap};
+    EXPECT_NO_THROW(check_recording(run_experiment(s, 0).recording, "here")) << mishap.info->name;
   }
 }
 
@@ -184,10 +334,13 @@ TEST(CheckRecording, LimitsAreSaidButNotRefused) {
                     single.runs.end());
   ASSERT_EQ(single.runs.size(), 2u);
   says(single, "no run was repeated");
-  Recording ends = good();
-  ends.truth_kind = "endpoints";
-  for (RecordedRun& run : ends.runs) run.truth = {run.truth.front(), run.truth.back()};
-  says(ends, "end points only");
+  says(end_points(good()), "end points only");
+  Recording far = end_points(good());
+  far.runs[0].truth[1].X_WB.x_m += 3;
+  says(far, "are the units right?");
+  Recording half = good();
+  half.runs[1].truth.resize(half.runs[1].truth.size() * 6 / 10);
+  says(half, "of the way only");
 }
 
 }  // namespace
