@@ -91,8 +91,11 @@ ON_WHEELS = G * (BASE + WHEELS) - ON_CASTER
 
 
 def patch(width):
-    """Each sliding patch resists a turn with mu N w / 4: both wheels slip by C F / N. In curves there is none here."""
-    return lambda cw: square(cw, turn_gain=1 - CREEP * MU * width / (2 * B))
+    """Lines that slide as they turn: moment mu N w / 4 (1 - q^2) against forces q mu N at B / 2, slip q omega w / 2."""
+    q = 0.0
+    for _ in range(100):
+        q = (q + width / (2 * B) * (1 - q * q)) / 2
+    return lambda cw: square(cw, turn_gain=1 / (1 + q * width / B))
 
 
 def drag(coefficient):

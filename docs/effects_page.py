@@ -25,7 +25,7 @@ TESTED = {
     "encoder_missed_counts": "a radius error in the mean (this is one drawing); scatter as N p (1 - p)",
     "encoder_latency": "the driver's law alone gives the overshoot; none is left at the return",
     "tyre_compliance": "statics: the radius under each wheel's load; the same at every step",
-    "contact_patch": "resists turning on the spot by mu N w / 4; nothing on a straight leg",
+    "contact_patch": "turns lose about w^2 / (2 b^2); nothing on a straight leg",
     "tyre_creep": "slip in proportion to traction up to the friction limit, then sliding",
     "caster_swivel": "follows its trail; kicks in the first trail-lengths with the sign of the last turn, as the plane's equations "
                      "say; not on a first leg that starts aligned; none without friction or creep",

@@ -23,8 +23,8 @@ constexpr double kCoherent = 0.8;       // share of the way that lies along the 
 constexpr double kWrapped = 3;          // full turns that a heading at the end may lack
 constexpr double kFarOff = 5;           // a speed, a side: wrong units, not another robot
 constexpr double kWay_m = 0.3;          // below, a run says nothing of lengths
-constexpr double kDead = 0.01;          // of what the other wheel counts
 constexpr double kTurn_rad = 1;         // nor of angles
+constexpr double kDead = 0.01;          // of what the other wheel counts
 
 // What a wheel pair and the tracker say of one piece of a run, metres and radians.
 struct Piece {

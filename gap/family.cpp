@@ -184,7 +184,7 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution)
       direct("encoder_latency", "delay", {positive("seconds", 0.02, 0.1)}),
       load(),
       direct("tyre_compliance", "both", {positive("metres_per_newton", 5e-7, 3e-6)}),
-      direct("contact_patch", "width", {positive("width_m", 0.01, 0.03)}),
+      squared("contact_patch", "width_m", 0.01, 0.03),
       direct("tyre_creep", "along and across", {{"along", 0, 5e-3, 0.02, 0, 0.1}, {"across", 0, 5e-3, 0.02, 0, 0.1}}),
       from_start(direct("caster_swivel", "friction", {positive("friction_nm", 0.1, 0.5)}, {{"trail_m", 0.03}}), 0.3),
       from_start(direct("caster_swivel", "askew", {{"initial_angle_rad", 0, 0.3, 2, -3.14, 3.14}},

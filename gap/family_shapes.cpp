@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace umbsim::gap {
 
 std::size_t index_of(const EffectInfo& info, const std::string& parameter) {
@@ -60,6 +62,21 @@ Family logarithmic(const std::string& effect, const std::string& parameter, doub
   family.values = [base, i, unit](const Eigen::VectorXd& p) {
     EffectValues values = base;
     values.numbers[i] = unit * std::exp(p[0]);
+    return values;
+  };
+  return family;
+}
+
+Family squared(const std::string& effect, const std::string& parameter, double step, double prior_sd) {
+  const EffectInfo& info = find_effect(effect);
+  const EffectValues base = neutral_effect(info).values;
+  const std::size_t i = index_of(info, parameter);
+  const double most = info.parameters[i].bounds.max;
+  Family family{effect, parameter, {{fmt::format("{} squared", parameter), 0, step * step, prior_sd * prior_sd, 0, most * most}},
+                {}, {}, true, 0};
+  family.values = [base, i](const Eigen::VectorXd& p) {
+    EffectValues values = base;
+    values.numbers[i] = std::sqrt(std::max(p[0], 0.0));
     return values;
   };
   return family;

@@ -21,6 +21,8 @@ constexpr std::size_t kClimbs = 3;
 constexpr int kRounds = 7;
 constexpr int kFewerRounds = 4;  // what is there already has been fitted
 constexpr std::size_t kSwapsFitted = 2;
+constexpr int kSwaps = 2;
+constexpr double kTwins = 6;  // squared standard deviations between two fits' tracks, all readings
 constexpr double kRivals = 0.8;    // share of an effect's gain that the screen must see in another in its place
 constexpr double kHeld = 0.5;      // of what the screen saw of an effect beside a place, that its fit must hold
 constexpr double kShown = 50;      // log evidence of a demand in commands
@@ -57,7 +59,7 @@ class Search {
       frontier.clear();
       for (const Fit& base : from) add_to(base, frontier);
       if (frontier.empty()) break;
-      swap_one(*std::max_element(frontier.begin(), frontier.end(), less_evidence), frontier);
+      swap(frontier);
     }
     return {std::move(fits_), std::move(doubtful_), std::move(p_values_)};
   }
@@ -144,12 +146,15 @@ class Search {
     return keep_best_starts(model_, none_, c) - none_.log_evidence < rival;
   }
 
-  // Where to go on: the best, and another that is nearly as good or explains something quite different.
+  // Where to go on: the best, and another that is nearly as good or explains something quite different. What moves the
+  // robot alike within noise, as a contact's width and a wheelbase do, is no other.
   std::vector<Fit> bases(std::vector<Fit> frontier) const {
     std::stable_sort(frontier.begin(), frontier.end(), [](const Fit& a, const Fit& b) { return less_evidence(b, a); });
     std::vector<Fit> from;
     for (Fit& f : frontier) {
-      const bool other = std::none_of(from.begin(), from.end(), [&](const Fit& g) { return g.name() == f.name(); });
+      const bool other = std::none_of(from.begin(), from.end(), [&](const Fit& g) {
+        return g.name() == f.name() || (g.families.size() == f.families.size() && seen_between(model_, g, f) < kTwins);
+      });
       if (other && from.size() < kBases) from.push_back(std::move(f));
     }
     if (from.size() < 2) return from;
@@ -186,10 +191,20 @@ class Search {
     }
   }
 
+  // Until the best fit stands, or often enough.
+  void swap(std::vector<Fit>& frontier) {
+    std::string swapped;
+    for (int i = 0; i < kSwaps; ++i) {
+      const Fit best = *std::max_element(frontier.begin(), frontier.end(), less_evidence);
+      if (best.name() == swapped) return;
+      swapped = best.name();
+      swap_one(best, frontier);
+    }
+  }
+
   // The first effect was chosen while the others were not there: each but the last is taken out, and what could stand
   // in its place is tried.
-  void swap_one(const Fit& best, std::vector<Fit>& paying) {
-    const Fit whole = best;  // `paying` grows
+  void swap_one(const Fit& whole, std::vector<Fit>& paying) {
     for (std::size_t out = 0; out + 1 < whole.families.size(); ++out) {
       const Fit base = without(whole, out);
       const double worth = whole.log_evidence - base.log_evidence;

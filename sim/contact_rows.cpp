@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "sim/world_state.h"
@@ -72,7 +73,7 @@ void World::State::add_contact(int support, const NearestPoint& nearest, double 
   const Vector3d along = axis.cross(normal).normalized();
   const Vector3d across = normal.cross(along);
   const TyreSlip slip = tyre_slip(s);
-  const double creep[2] = {slip.along, slip.across};
+  const double creep[2] = {std::max(slip.along, slip_of_turning_patch(s, friction, normal)), slip.across};
   const Vector3d surface = R_BW * slip.surface_mps;
   for (int i = 0; i < 2; ++i) {
     const Vector3d& direction = i == 0 ? along : across;
@@ -92,26 +93,45 @@ TyreSlip World::State::tyre_slip(const Support& s) const {
   if (w.creep_along == 0 && w.creep_across == 0 && floor.drift_x == 0 && floor.drift_y == 0) return {};
   const double speed = std::abs(body.velocity()[6 + s.wheel]) * w.radius_m;
   const double rolled = (std::abs(body.velocity()[6]) + std::abs(body.velocity()[7])) / 2 * w.radius_m;  // by the robot
-  const double load_n = std::max(load(s), kLeastLoad * robot.total_mass_kg() * options.gravity_mps2);
+  const double load_n = creeping_load(s);
   return {w.creep_along * speed / load_n, w.creep_across * speed / load_n,
           {rolled * floor.drift_x, rolled * floor.drift_y, 0}};
 }
 
-// A contact of width w resists turning on the spot with the moment mu N w / 4 (uniform pressure along a line).
+double World::State::creeping_load(const Support& s) const {
+  return std::max(load(s), kLeastLoad * robot.total_mass_kg() * options.gravity_mps2);
+}
+
+// Where a line of width w turns at omega on the floor, its points slide either way, and only what slides more on one
+// side than on the other pulls: F = mu N 2 s / (omega w) for a slip s, a compliance omega w / (2 mu N). Where the line
+// creeps without sliding it is C v / N instead, and the law goes over from one to the other where they are equal.
+double World::State::slip_of_turning_patch(const Support& s, double friction, const Vector3d& normal) const {
+  if (s.wheel < 0 || robot.wheels[s.wheel].patch_width_m == 0) return 0;
+  const double turning = std::abs(normal.dot(body.velocity().head<3>()));
+  return turning * robot.wheels[s.wheel].patch_width_m / (2 * friction * creeping_load(s));
+}
+
+// A contact is taken as a line of width w and uniform pressure whose points creep, and slide from mu on. Turning at omega
+// while it rolls at v, points slide beyond y = mu C v / omega from its middle. With x that y over w / 2 the moment is
+//   mu N w / 4 times (1 - x^2 / 3) for x < 1, and N w^2 / (12 C) omega / v, where nothing slides, for x > 1,
+// less the square of the share of its friction that the contact gives along.
 void World::State::add_spin_friction(const DofVector& u, double step_s) {
   for (int i = 0; i < problem.contacts; ++i) {
     const ContactRows& c = problem.contact[i];
     const Support& s = supports[contact_support[i]];
     if (s.wheel < 0 || robot.wheels[s.wheel].patch_width_m == 0) continue;
-    const double limit = c.friction * load(s) * robot.wheels[s.wheel].patch_width_m / 4 * step_s;
-    problem.motor[problem.motors++] = {rows, limit};
+    const double width_m = robot.wheels[s.wheel].patch_width_m;
+    const double creep = tyre_slip(s).along;
     row[rows] = DofVector::Zero(body.dofs());
     row[rows].head<3>() = row[c.normal].segment<3>(3);  // the contact's normal
-    const Wheel& w = robot.wheels[s.wheel];
-    const double width_m = w.patch_width_m;
-    // Rolling, the ends of the line creep: moment N w^2 / (12 C) times the curvature, below the limit.
-    const double spin = 12 * tyre_slip(s).along / (width_m * width_m);
-    compliance[rows] = (kSpinMobility + spin) / step_s;
+    const double turning = std::abs(speed_along(row[rows], body.velocity()));
+    const double grip_n = c.friction * load(s);
+    const double given = grip_n > 0 ? std::min(std::abs(loads.wheel_along_n[s.wheel]) / grip_n, 1.0) : 0;
+    const double sticking = 2 * grip_n * creep;  // x = sticking / (omega w)
+    const double x = sticking < turning * width_m ? sticking / (turning * width_m) : 0;
+    const double limit = grip_n * width_m / 4 * (1 - x * x / 3) * (1 - given * given) * step_s;
+    problem.motor[problem.motors++] = {rows, limit};
+    compliance[rows] = (kSpinMobility + 12 * creep / (width_m * width_m)) / step_s;
     problem.b[rows] = speed_along(row[rows], u);
     ++rows;
   }

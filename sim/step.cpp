@@ -179,6 +179,8 @@ void World::State::note_loads(double step_s) {
     const int support = contact_support[i];
     double& load = support < 2 ? loads.wheel_n[support] : loads.caster_n[support - 2];
     load += impulses[problem.contact[i].normal] / step_s;
+    if (support < 2 && problem.contact[i].friction > 0)
+      loads.wheel_along_n[support] += impulses[problem.contact[i].normal + 1] / step_s;
   }
 }
 

@@ -41,6 +41,7 @@ struct PhysicsCost {
 /// Forces on each support at the end of the last step, in newtons.
 struct SupportLoads {
   std::array<double, 2> wheel_n{};
+  std::array<double, 2> wheel_along_n{};  ///< friction along the way that the wheel rolls, signed
   std::array<double, 8> caster_n{};
 };
 

@@ -81,6 +81,8 @@ struct World::State {
   void add_contacts(double step_s, const DofVector& u);
   void add_contact(int support, const NearestPoint& nearest, double step_s, const DofVector& u);
   TyreSlip tyre_slip(const Support& s) const;
+  double creeping_load(const Support& s) const;
+  double slip_of_turning_patch(const Support& s, double friction, const Eigen::Vector3d& normal) const;
   void add_spin_friction(const DofVector& u, double step_s);
   void add_motor(int wheel, double target_radps, double step_s, const DofVector& u);
   void add_swivel_friction(double step_s, const DofVector& u);

@@ -37,7 +37,7 @@ void slip_curve() {
 
 void patch() {
   fmt::print("\n### Contact patch, creep 0.02, step 20 ms\n\n");
-  fmt::print("| width, mm | share of a turn on the spot: C μ w / 2b | measured ");
+  fmt::print("| width, mm | share of a turn on the spot, about w² / 2b² | measured ");
   fmt::print("| share of a gentle curve: w² / 3b² | measured |\n|---|---|---|---|---|\n");
   for (const double width_m : {0.01, 0.02, 0.04}) {
     const Figure turn = turn_lost(0.02, width_m), curve = curve_lost(0.02, width_m);

@@ -81,7 +81,14 @@ Figure turn_lost(double creep, double width_m, const PhysicsOptions& options) {
   const double before = drive.error().theta_rad, start_rad = drive.odometry.theta_rad;
   drive.go(0, 0.5, 4);
   const double lost = (before - drive.error().theta_rad) / (drive.odometry.theta_rad - start_rad);
-  return {lost, creep * kMu * width_m / (2 * kWheelbase_m)};
+  // Of friction each wheel gives the share `given` along to turn both patches; docs/contact.md has the law.
+  double given = 0;
+  for (int i = 0; i < 100; ++i) {
+    const double x = kMu * creep * (kWheelbase_m / width_m + given);
+    given = (given + width_m / (2 * kWheelbase_m) * (1 - x * x / 3) * (1 - given * given)) / 2;
+  }
+  const double slip = given * width_m / kWheelbase_m;
+  return {lost, slip / (1 + slip)};
 }
 
 Figure curve_lost(double creep, double width_m, const PhysicsOptions& options) {

@@ -1,7 +1,10 @@
 // Tyres and casters against statics: what the floor must push is known, so what the tyre gives way is known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <iostream>
+
+#include <fmt/format.h>
 
 #include "effects/contact.h"
 #include "effects/geometry.h"
@@ -63,10 +66,44 @@ TEST(TyreCompliance, SameAtEveryStep) {
   }
 }
 
-// Both contacts resist with mu N w / 4 in all, the wheels work against it with a force M / b each, and creep under it
-// by C F / N: the share C mu w / (2 b) of the turn is lost, whatever the load.
-double turn_lost(double width_m, double rate_radps) {
-  TrialDrive drive(rig_with(TyreCreep{kCreep, kCreep}, ContactPatch{width_m}));
+// What one contact does that turns at 1 rad/s, rolls at `rolled_m` per radian and slips along by `slip_m` per radian:
+// a line of many points, each pulling with its creep, up to mu. Force over N, and moment over N, metres.
+struct LineContact {
+  double along = 0;
+  double moment_m = 0;
+};
+
+LineContact line_contact(double width_m, double creep, double rolled_m, double slip_m) {
+  constexpr int kPoints = 200000;
+  LineContact sum;
+  for (int i = 0; i < kPoints; ++i) {
+    const double y = width_m * ((i + 0.5) / kPoints - 0.5);
+    const double slip = y - slip_m;
+    const double sliding = slip < 0 ? -kMu : kMu;
+    const double pull = creep > 0 ? std::clamp(slip / (creep * rolled_m), -kMu, kMu) : sliding;
+    sum.along -= pull / kPoints;
+    sum.moment_m += y * pull / kPoints;
+  }
+  return sum;
+}
+
+// Turning on the spot the wheels work against both moments with a force 2 M / b each, for which they must slip. The share
+// of the turn that is lost, by bisection of the slip; the load does not matter.
+double share_lost(double width_m, double creep) {
+  double low = 0;
+  double high = width_m / 2 + 0.01;
+  for (int i = 0; i < 60; ++i) {
+    const double slip = (low + high) / 2;
+    const LineContact c = line_contact(width_m, creep, kWheelbase_m / 2 + slip, slip);
+    (c.along * kWheelbase_m < 2 * c.moment_m ? low : high) = slip;
+  }
+  return low / (kWheelbase_m / 2 + low);
+}
+
+double turn_lost(double width_m, double creep, double rate_radps, double step_s = 0.001) {
+  PhysicsOptions options;
+  options.step_s = step_s;
+  TrialDrive drive(rig_with(TyreCreep{creep, creep}, ContactPatch{width_m}), options);
   drive.ramp(0, rate_radps, 1);
   const double before = drive.error().theta_rad, start_rad = drive.odometry.theta_rad;
   drive.go(0, rate_radps, 4);
@@ -74,12 +111,17 @@ double turn_lost(double width_m, double rate_radps) {
 }
 
 TEST(ContactPatch, ResistsTurningOnTheSpot) {
-  for (const double width_m : {0.01, 0.02, 0.04}) {
-    const double expected = kCreep * kMu * width_m / (2 * kWheelbase_m);
-    expect_share("patch: share of the turn lost", turn_lost(width_m, 0.5), expected, kLinear);
-    EXPECT_NEAR(turn_lost(width_m, 0.5), turn_lost(width_m, -0.5), 1e-9) << "left and right";
+  for (const double creep : {0.0, 0.005, 0.02}) {
+    for (const double width_m : {0.01, 0.02, 0.04, 0.1}) {
+      SCOPED_TRACE(fmt::format("width {} m, creep {}", width_m, creep));
+      const double expected = share_lost(width_m, creep);
+      expect_share("patch: share of the turn lost", turn_lost(width_m, creep, 0.5), expected, kLinear);
+      EXPECT_NEAR(turn_lost(width_m, creep, 0.5), turn_lost(width_m, creep, -0.5), 1e-9) << "left and right";
+      EXPECT_NEAR(turn_lost(width_m, creep, 0.5), turn_lost(width_m, creep, 0.5, 0.02), 0.003 * expected) << "the step";
+    }
   }
-  EXPECT_LT(std::abs(turn_lost(0, 0.5)), 1e-6) << "no width, no loss";
+  EXPECT_NEAR(share_lost(0.02, 0), 0.02 * 0.02 / (2 * kWheelbase_m * kWheelbase_m), 1e-5) << "w^2 / (2 b^2)";
+  EXPECT_LT(std::abs(turn_lost(0, kCreep, 0.5)), 1e-6) << "no width, no loss";
 }
 
 TEST(ContactPatch, DoesNothingOnAStraightLeg) {
@@ -101,6 +143,17 @@ TEST(ContactPatch, GentleCurvesStayCurved) {
   const double width_m = 0.04;
   const double share = width_m * width_m / (3 * kWheelbase_m * kWheelbase_m);
   expect_share("patch: share of a gentle curve lost", 1 - heading(width_m) / heading(0), share, 0.02);
+}
+
+// Rigid tyres slide at any curvature: w^2 / (2 b^2) of it is lost, as on the spot, and no unequal radii are hidden.
+TEST(ContactPatch, RigidTyresLoseTheSameShareOfEveryCurve) {
+  const auto heading = [](double width_m) {
+    TrialDrive drive(rig_with(ContactPatch{width_m}, WheelRadiusDifference{0.002}));
+    drive.leg(0.2, 0, 10);
+    return drive.error().theta_rad;
+  };
+  const double share = 0.04 * 0.04 / (2 * kWheelbase_m * kWheelbase_m);
+  expect_share("patch on rigid tyres: share of a gentle curve lost", 1 - heading(0.04) / heading(0), share, 0.02);
 }
 
 // A robot at 0.2 m/s that is held back, driven on or pushed aside at the axle by a steady force.

@@ -62,6 +62,22 @@ TEST(WeakCause, OneToedWheelOnARoughFloor) {
   EXPECT_EQ(again.diagnosed().causes.front().name, "none");
 }
 
+// Both make turns smaller; a contact's width does so more while the turn speeds up, for that takes force.
+TEST(WeakCause, AContactsWidthIsNoWheelbase) {
+  const double width_m = 0.025;
+  const Patient wide(campaign({effect("contact_patch", {{"width_m", width_m}})}, 83));
+  const Diagnosis d = wide.diagnosed();
+  ASSERT_EQ(d.causes.front().name, "contact_patch");
+  const ParameterEstimate e = estimate(d, "width_m");
+  EXPECT_NEAR(e.value, width_m, 0.05 * width_m);
+  EXPECT_TRUE(holds(e, width_m));
+  const double alike = width_m * width_m / (2 * 0.34 * 0.34);
+  const Patient based(campaign({effect("wheelbase", {{"relative", alike}})}, 84));
+  const Diagnosis other = based.diagnosed();
+  ASSERT_EQ(other.causes.front().name, "wheelbase");
+  EXPECT_TRUE(holds(estimate(other, "relative"), alike));
+}
+
 // Recordings of this engine show that no other one made them: then a turn that is off by 0.06 % is no engine's.
 TEST(WeakCause, AWheelbaseThatIsHardlyOff) {
   const Patient p(campaign({effect("wheelbase", {{"relative", 6e-4}})}, 77));
