@@ -48,7 +48,7 @@ gap::Simulator gap_simulator(const Replay& replay) {
           },
           [&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.counts(run, effects); },
           [&replay](const std::vector<Effect>& effects) { return replay.habits(effects); },
-          [&replay](const std::vector<Effect>& effects) { return replay.scrubs(effects); }};
+          [&replay](const std::vector<Effect>& effects) { return replay.scrubs(effects); }, replay.wheel_width_m()};
 }
 
 gap::Simulator cached_gap_simulator(const Replay& replay, bool no_cache) {

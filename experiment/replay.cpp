@@ -144,6 +144,11 @@ std::vector<Pose2> Replay::poses(std::size_t index, const std::vector<Effect>& e
   return at_truth(recording_.runs[index], track);
 }
 
+double Replay::wheel_width_m() const {
+  if (recording_.robot.urdf.empty()) return 0;
+  return std::min(nominal_.wheels[0].width_m, nominal_.wheels[1].width_m);
+}
+
 bool Replay::scrubs(const std::vector<Effect>& effects) const {
   const std::vector<Effect> all = combined(scenario_.effects, effects);
   const auto has = [&](const char* name) {

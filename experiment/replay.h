@@ -25,6 +25,8 @@ class Replay {
 
   const Recording& recording() const { return recording_; }
   const RobotModel& nominal() const { return nominal_; }
+  /// Of the drive wheels, the narrower one; 0 where the recording names no URDF, or that gives none.
+  double wheel_width_m() const;
   const Scenario& scenario() const { return scenario_; }
   const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }
 

@@ -117,7 +117,10 @@ double may_be_left(const Fit& fit, double explained, const Thresholds& t) {
 }
 
 double enough_to_detect(const std::vector<std::string>& effects, const Thresholds& t) {
-  const auto same_for_all_engines = [](const std::string& e) { return only_rolls(e) || is_demand(e); };
+  // A contact's width does what a wheelbase does, and engines differ in turns by no more for the one than for the other.
+  const auto same_for_all_engines = [](const std::string& e) {
+    return only_rolls(e) || is_demand(e) || e == "contact_patch";
+  };
   return std::all_of(effects.begin(), effects.end(), same_for_all_engines) ? t.detect_rolling : t.detect;
 }
 

@@ -10,6 +10,9 @@ namespace umbsim::gap {
 namespace {
 
 constexpr double kFree = 1e9;
+// Log of how much wider a wheelbase's prior is than a contact's width, which only takes from turns: of two that do nearly
+// the same that must not decide.
+constexpr double kNarrowContact = 2;
 
 FreeParameter signed_one(const char* name, double step, double prior_sd) {
   return {name, 0, step, prior_sd, -kFree, kFree};
@@ -148,7 +151,7 @@ Family on_soft_tyres(Family family) {
 
 }  // namespace
 
-std::vector<Family> plain_families(double period_s, double ticks_per_revolution) {
+std::vector<Family> plain_families(double period_s, double ticks_per_revolution, double wheel_width_m) {
   std::vector<Family> all = {
       logarithmic("over_acceleration", "factor", 1, 2, -3, 6),
       logarithmic("fast_turning", "factor", 1, 1.5, -3, 4),
@@ -184,7 +187,7 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution)
       direct("encoder_latency", "delay", {positive("seconds", 0.02, 0.1)}),
       load(),
       direct("tyre_compliance", "both", {positive("metres_per_newton", 5e-7, 3e-6)}),
-      squared("contact_patch", "width_m", 0.01, 0.03),
+      squared("contact_patch", "width_m", 0.01, 0.03, wheel_width_m),
       direct("tyre_creep", "along and across", {{"along", 0, 5e-3, 0.02, 0, 0.1}, {"across", 0, 5e-3, 0.02, 0, 0.1}}),
       from_start(direct("caster_swivel", "friction", {positive("friction_nm", 0.1, 0.5)}, {{"trail_m", 0.03}}), 0.3),
       from_start(direct("caster_swivel", "askew", {{"initial_angle_rad", 0, 0.3, 2, -3.14, 3.14}},
@@ -198,6 +201,7 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution)
   for (Family& f : all) {
     const auto same = [&](const Family& g) { return g.effect == f.effect; };
     f.variant_cost = std::log(double(std::count_if(all.begin(), all.end(), same)));
+    if (f.effect == "contact_patch") f.variant_cost += kNarrowContact;
   }
   return all;
 }

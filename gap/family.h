@@ -31,7 +31,7 @@ struct Family {
   std::function<std::vector<Effect>(const Eigen::VectorXd& p)> with;
   bool from_zero = true;  ///< acts in proportion near zero; false: fitted from its start, by repeated simulation
   double search_cost = 0; ///< log of the number of places or moments that were looked at
-  double variant_cost = 0; ///< log of the number of families of the same effect, which are all tried
+  double variant_cost = 0; ///< log of the number of families of the same effect, which are all tried, or of a prior
   bool shape_unknown = false;  ///< its numbers say how strong it is, not where: it is named, and added to no twin
 };
 
@@ -54,8 +54,8 @@ bool is_demand(const std::string& effect);
 bool only_rolls(const std::string& effect);
 
 /// Every family of the catalogue that needs no search for a place or moment.
-/// `period_s` and `ticks_per_revolution`: of the recording's encoders.
-std::vector<Family> plain_families(double period_s, double ticks_per_revolution);
+/// `period_s` and `ticks_per_revolution`: of the recording's encoders. `wheel_width_m`: no contact is wider; 0: not known.
+std::vector<Family> plain_families(double period_s, double ticks_per_revolution, double wheel_width_m = 0);
 
 /// Families of local effects, at a place of the floor or a moment of one run.
 /// `heading_rad`: of the robot as it passes; the cable lies across.

@@ -67,12 +67,13 @@ Family logarithmic(const std::string& effect, const std::string& parameter, doub
   return family;
 }
 
-Family squared(const std::string& effect, const std::string& parameter, double step, double prior_sd) {
+Family squared(const std::string& effect, const std::string& parameter, double step, double prior_sd, double most) {
   const EffectInfo& info = find_effect(effect);
   const EffectValues base = neutral_effect(info).values;
   const std::size_t i = index_of(info, parameter);
-  const double most = info.parameters[i].bounds.max;
-  Family family{effect, parameter, {{fmt::format("{} squared", parameter), 0, step * step, prior_sd * prior_sd, 0, most * most}},
+  if (most == 0) most = info.parameters[i].bounds.max;
+  Family family{effect, parameter,
+                {{fmt::format("{} squared", parameter), 0, step * step, prior_sd * prior_sd, 0, most * most}},
                 {}, {}, true, 0};
   family.values = [base, i](const Eigen::VectorXd& p) {
     EffectValues values = base;

@@ -23,7 +23,7 @@ Family vector_family(const std::string& effect, const std::string& size, const s
 Family logarithmic(const std::string& effect, const std::string& parameter, double unit, double prior_sd, double min,
                    double max);
 
-/// A size that acts by its square: fitted as that.
-Family squared(const std::string& effect, const std::string& parameter, double step, double prior_sd);
+/// A size that acts by its square: fitted as that. `most`: the largest possible; 0: as the catalogue says.
+Family squared(const std::string& effect, const std::string& parameter, double step, double prior_sd, double most);
 
 }  // namespace umbsim::gap

@@ -73,6 +73,8 @@ class Model {
   const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }
   const TrackFilter& filter(std::size_t run) const { return filters_[run]; }
   const Habits& habits() const { return measured_.habits; }
+  /// Of the drive wheels; 0: not known.
+  double wheel_width_m() const { return simulator_.wheel_width_m; }
   int nuisances() const { return int(nuisance_sd().size()); }
   /// Of another engine's recording, and what else it may be (Nuisances).
   const Eigen::VectorXd& nuisance_sd() const { return nuisances_.shared_sds.front(); }

@@ -66,7 +66,8 @@ OnLeg on_leg(const Model& model, int wanted_leg, double share) {
 std::vector<PlannedFamily> planned_families(const Model& model, const std::set<std::string>& wanted) {
   const Recording& recording = model.recording();
   std::vector<PlannedFamily> all;
-  std::vector<Family> plain = plain_families(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution);
+  std::vector<Family> plain =
+      plain_families(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution, model.wheel_width_m());
   std::erase_if(plain, [&](const Family& f) { return wanted.count(f.effect) == 0; });
   for (Family& f : drivable(model, std::move(plain))) all.push_back(planned(std::move(f)));
   const Pose2 right_wheel{0, -recording.robot.wheelbase_m / 2, 0};

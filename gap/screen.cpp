@@ -12,7 +12,7 @@ namespace umbsim::gap {
 namespace {
 
 constexpr double kLeastKick = 10;  // log evidence below which a place or a moment would not pay
-constexpr double kTryCost = 3;     // log of how many frictions are tried, and for the width of what is held where it shows
+constexpr double kTryCost = 3;  // log of how many frictions are tried, and for the width of what is held where it shows
 
 // Effects on how the robot is driven and read are tried where counts or commands show them.
 bool shown_by_habits(const std::string& effect, const Habits& h) {
@@ -47,7 +47,8 @@ std::pair<int, double> leg_at(const std::vector<Stretch>& stretches, double time
 
 Screen::Screen(const Model& model, const std::set<std::string>& excluded) : model_(model), excluded_(excluded) {
   const Recording& recording = model.recording();
-  for (const Family& f : plain_families(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution)) {
+  for (const Family& f :
+       plain_families(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution, model.wheel_width_m())) {
     if (excluded.count(f.effect) > 0 || !shown_by_habits(f.effect, model.habits())) continue;
     families_.push_back(f);
     // Samples that are rarer by a little already lag by up to a period: a longer interval says little of these.

@@ -133,6 +133,7 @@ Simulator cached(Simulator simulator, const Recording& recording, const std::str
   const auto habits = simulator.habits;
   const auto scrubs = simulator.scrubs;
   const bool commands = bool(simulator.commands);
+  const double wheel_width_m = simulator.wheel_width_m;
   const auto store = std::make_shared<Store>(std::move(simulator), recording, identity, choice);
   Simulator result;
   result.ticks = [store](std::size_t run, const std::vector<Effect>& e, double roughness_m_per_sqrt_m) {
@@ -145,6 +146,7 @@ Simulator cached(Simulator simulator, const Recording& recording, const std::str
   }
   result.habits = habits;
   result.scrubs = scrubs;
+  result.wheel_width_m = wheel_width_m;
   return result;
 }
 

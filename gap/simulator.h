@@ -27,6 +27,7 @@ struct Simulator {
   std::function<Habits(const std::vector<Effect>&)> habits;  ///< as recording/habits.h, under effects
   /// Whether wheels scrub under effects, so that the floor's roughness moves their mean path; none: never.
   std::function<bool(const std::vector<Effect>&)> scrubs = {};
+  double wheel_width_m = 0;  ///< of the drive wheels, as the robot's description says; 0: not known
 };
 
 }  // namespace umbsim::gap

@@ -111,8 +111,8 @@ double World::State::slip_of_turning_patch(const Support& s, double friction, co
   return turning * robot.wheels[s.wheel].patch_width_m / (2 * friction * creeping_load(s));
 }
 
-// A contact is taken as a line of width w and uniform pressure whose points creep, and slide from mu on. Turning at omega
-// while it rolls at v, points slide beyond y = mu C v / omega from its middle. With x that y over w / 2 the moment is
+// A contact is taken as a line of width w and uniform pressure whose points creep, and slide from mu on. Turning at
+// omega while it rolls at v, points slide beyond y = mu C v / omega from its middle. With x that y over w / 2, M is
 //   mu N w / 4 times (1 - x^2 / 3) for x < 1, and N w^2 / (12 C) omega / v, where nothing slides, for x > 1,
 // less the square of the share of its friction that the contact gives along.
 void World::State::add_spin_friction(const DofVector& u, double step_s) {

@@ -1,5 +1,6 @@
 #include "gap/trial/effect_draws.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -157,7 +158,11 @@ const DrawLine kDraws[] = {
        d.drawn.amplitude.back().grain = kControlPeriod_s;
      }},
     {"tyre_compliance", [](Draw& d) { d.grow("metres_per_newton"); }},
-    {"contact_patch", [](Draw& d) { d.grow("width_m"); }},
+    {"contact_patch",
+     [](Draw& d) {
+       d.grow("width_m");
+       d.drawn.range.max = d.drawn.plausible.max = std::min(d.drawn.range.max, kTrialWheelWidth_m);
+     }},
     {"tyre_creep",
      [](Draw& d) {
        const std::size_t which = d.pick(3);

@@ -20,7 +20,6 @@ constexpr double kLabmateWheelbase_m = 0.34;
 constexpr double kLabmateEffort_nm = 20;
 
 constexpr double kWheelMass_kg = 1;
-constexpr double kWheelWidth_m = 0.03;
 constexpr double kCasterRadius_m = 0.03;
 
 // To the tenth of a millimetre, gram and so on, as on a data sheet.
@@ -31,7 +30,7 @@ double draw(RandomStream& random, const Range& range, double grain) {
 std::string wheel(const char* side, const TrialRobot& r, double y_m) {
   const double spin = kWheelMass_kg * r.wheel_radius_m * r.wheel_radius_m / 2;
   const double across =
-      kWheelMass_kg * (3 * r.wheel_radius_m * r.wheel_radius_m + kWheelWidth_m * kWheelWidth_m) / 12;
+      kWheelMass_kg * (3 * r.wheel_radius_m * r.wheel_radius_m + kTrialWheelWidth_m * kTrialWheelWidth_m) / 12;
   const double effort =
       kLabmateEffort_nm * r.base_mass_kg / kLabmateMass_kg * r.wheel_radius_m / kLabmateRadius_m;
   return fmt::format(R"(  <link name="{0}_wheel">
@@ -52,7 +51,7 @@ std::string wheel(const char* side, const TrialRobot& r, double y_m) {
     <limit effort="{7:.3f}" velocity="30"/>
   </joint>
 )",
-                     side, kWheelMass_kg, across, spin, r.wheel_radius_m, kWheelWidth_m, y_m, effort);
+                     side, kWheelMass_kg, across, spin, r.wheel_radius_m, kTrialWheelWidth_m, y_m, effort);
 }
 
 }  // namespace

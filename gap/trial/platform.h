@@ -29,6 +29,9 @@ struct Platform {
 /// File name of the robot's URDF, beside recording.yaml.
 constexpr const char* kTrialUrdf = "robot.urdf";
 
+/// Of every robot's drive wheels; no contact is wider.
+constexpr double kTrialWheelWidth_m = 0.03;
+
 /// Number `index` of the trial's platforms.
 Platform draw_platform(const TrialPlan& plan, int index);
 
