@@ -79,6 +79,13 @@ TEST(WeakCause, AContactsWidthIsNoWheelbase) {
   EXPECT_TRUE(holds(estimate(other, "relative"), alike));
 }
 
+// A contact of 48 mm would do what this wheelbase does, but the wheels are 30 mm wide.
+TEST(WeakCause, AContactIsNoWiderThanItsWheel) {
+  const Patient p(campaign({effect("wheelbase", {{"relative", 0.01}})}, 85));
+  EXPECT_DOUBLE_EQ(p.model.wheel_width_m(), 0.03);
+  EXPECT_EQ(p.diagnosed({"wheelbase"}).causes.front().name, "unknown");
+}
+
 // Recordings of this engine show that no other one made them: then a turn that is off by 0.06 % is no engine's.
 TEST(WeakCause, AWheelbaseThatIsHardlyOff) {
   const Patient p(campaign({effect("wheelbase", {{"relative", 6e-4}})}, 77));
