@@ -10,8 +10,8 @@ namespace umbsim::gap {
 namespace {
 
 constexpr double kFree = 1e9;
-// Log of how much wider a wheelbase's prior is than a contact's width, which only takes from turns: of two that do nearly
-// the same that must not decide.
+// Log of how much wider a wheelbase's prior is than a contact's width, which only takes from turns: of two that do
+// nearly the same that must not decide.
 constexpr double kNarrowContact = 2;
 
 FreeParameter signed_one(const char* name, double step, double prior_sd) {

@@ -54,7 +54,8 @@ bool is_demand(const std::string& effect);
 bool only_rolls(const std::string& effect);
 
 /// Every family of the catalogue that needs no search for a place or moment.
-/// `period_s` and `ticks_per_revolution`: of the recording's encoders. `wheel_width_m`: no contact is wider; 0: not known.
+/// `period_s` and `ticks_per_revolution`: of the recording's encoders. `wheel_width_m`: no contact is wider; 0: not
+/// known.
 std::vector<Family> plain_families(double period_s, double ticks_per_revolution, double wheel_width_m = 0);
 
 /// Families of local effects, at a place of the floor or a moment of one run.

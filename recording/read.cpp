@@ -55,8 +55,8 @@ void check_format(YamlMap& top) {
 // A length of a robot's, for which millimetres are a likely mistake.
 double robot_metres(YamlMap& map, const std::string& key) {
   const YamlValue value = map.at(key);
-  const double length = value.number(Bounds::positive());
-  if (length <= kWheel.max) return length;
+  const double length = value.number();
+  if (length <= kWheel.max) return value.number(kWheel);
   value.fail(fmt::format("{:g} is out of range (must be {}, in metres: {:g} if this is millimetres)", length,
                          kWheel.text(), length / 1000));
 }

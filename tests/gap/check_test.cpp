@@ -126,7 +126,8 @@ const std::vector<Bad>& bad_recordings() {
        {"the left wheel counts backwards", "negate left_ticks"}},
       {"a right wheel that counts backwards", every_sample([](EncoderSample& s) { s.right_ticks *= -1; }),
        {"the right wheel counts backwards", "negate right_ticks"}},
-      {"a dead counter", every_sample([](EncoderSample& s) { s.left_ticks = 0; }), {"left wheel hardly counts", "dead"}},
+      {"a dead counter", every_sample([](EncoderSample& s) { s.left_ticks = 0; }),
+       {"left wheel hardly counts", "dead"}},
       {"a small jump of the counter",
        [](Recording& r) {
          auto& s = r.runs[3].encoders;
@@ -224,7 +225,8 @@ Recording end_points(Recording recording) {
 // What a recording of end points shows, too.
 const std::vector<Bad>& bad_end_points() {
   static const std::vector<Bad> all = {
-      {"wheels that stand still", every_sample([](EncoderSample& s) { s.left_ticks = s.right_ticks = 0; }), {"no motion"}},
+      {"wheels that stand still", every_sample([](EncoderSample& s) { s.left_ticks = s.right_ticks = 0; }),
+       {"no motion"}},
       {"a truth that stands still", [](Recording& r) { r.runs[0].truth[1].X_WB = r.runs[0].truth[0].X_WB; },
        {"the tracker saw nothing"}},
       {"swapped wheels", every_sample(swap_wheels), {"left_ticks and right_ticks are swapped"}},

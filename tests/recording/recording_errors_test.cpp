@@ -81,7 +81,9 @@ TEST(RecordingErrors, KeysAndValues) {
       {"title: t\n", "title: t\ntitle: u\n", "recording.yaml:3:1: title: duplicate key (first on line 2)"},
       {"title: t\n", "title: [t]\n", "recording.yaml:2:8: title: expected text, got a list"},
       {"0.075", "-0.075", "recording.yaml:4:19: robot.wheel_radius_m: -0.075 is out of range (must be > 0 and <= 100)"},
-      {"0.34", "340", "recording.yaml:5:16: robot.wheelbase_m: 340 is out of range (must be > 0 and <= 100)"},
+      {"0.34", "340",
+       "recording.yaml:5:16: robot.wheelbase_m: 340 is out of range (must be > 0 and <= 100, in metres: 0.34 if this is "
+       "millimetres)"},
       {"2000", "many", "recording.yaml:6:25: robot.ticks_per_revolution: expected a number, got 'many'"},
       {"2000\n", "2000\n  urdf: ../a.urdf\n",
        "recording.yaml:7:9: robot.urdf: '../a.urdf' must be the name of a file in robots/ or beside the recording"},
