@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "gap/check_parts.h"
 #include "gap/check_samples.h"
 #include "gap/check_units.h"
 #include "gap/refusal.h"
@@ -44,23 +45,13 @@ double tracked_way_m(const RecordedRun& run) {
   return way;
 }
 
-double counted_way_m(const RecordedRun& run, const RecordedRobot& robot) {
-  double way = 0;
-  for (std::size_t i = 1; i < run.encoders.size(); ++i) {
-    const EncoderSample& a = run.encoders[i - 1];
-    const EncoderSample& b = run.encoders[i];
-    way += std::abs(double(b.left_ticks - a.left_ticks + b.right_ticks - a.right_ticks)) / 2;
-  }
-  return way * 2 * M_PI * robot.wheel_radius_m / robot.ticks_per_revolution;
-}
-
 // Both files must be of the same time: the truth's may not run faster or slower, be of another run's, or of more.
 void check_cover(const Recording& recording, const RecordedRun& run, const std::string& directory) {
   const double truth_s = run.truth.back().time_s - run.truth.front().time_s;
   const double counts_s = run.encoders.back().time_s - run.encoders.front().time_s;
   const double factor = truth_s / counts_s;
   if (recording.truth_kind == "track" && (factor < 1 / kOtherClock || factor > kOtherClock)) {
-    const double all = counted_way_m(run, recording.robot);
+    const double all = counted(run, recording.robot).way_m;
     if (std::abs(std::log(tracked_way_m(run) / all)) < kSameWay) {
       refuse(directory, run,
              fmt::format(
@@ -135,7 +126,7 @@ std::vector<std::string> check_recording(const Recording& recording, const std::
     }
     if (recording.truth_kind == "endpoints") {
       const Pose2 end = inverse(run.truth.front().X_WB) * run.truth.back().X_WB;
-      const double way = counted_way_m(run, recording.robot);
+      const double way = counted(run, recording.robot).way_m;
       if (recording.path.shape == "square" && std::hypot(end.x_m, end.y_m) > kFarFromHome * way) {
         limits.push_back(fmt::format("run {}: it ends {:.3g} m from its start after {:.3g} m: are the units right?",
                                      run.id, std::hypot(end.x_m, end.y_m), way));

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "gap/check_parts.h"
 #include "gap/refusal.h"
 
 namespace umbsim::gap {
@@ -35,10 +36,6 @@ std::vector<double> steps_s(const std::vector<Sample>& samples) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < samples.size(); ++i) steps.push_back(samples[i].time_s - samples[i - 1].time_s);
   return steps;
-}
-
-double metres_per_tick(const RecordedRobot& robot) {
-  return 2 * M_PI * robot.wheel_radius_m / robot.ticks_per_revolution;
 }
 
 // What the wheels turned from row i - 1 to row i, metres, without signs.

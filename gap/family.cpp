@@ -20,6 +20,11 @@ FreeParameter signed_one(const char* name, double step, double prior_sd) {
 
 FreeParameter positive(const char* name, double step, double prior_sd) { return {name, 0, step, prior_sd, 0, kFree}; }
 
+Family costing(double cost, Family family) {
+  family.variant_cost = cost;
+  return family;
+}
+
 Family from_start(Family family, double start) {
   family.parameters.front().start = start;
   family.from_zero = false;
@@ -187,7 +192,7 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution,
       direct("encoder_latency", "delay", {positive("seconds", 0.02, 0.1)}),
       load(),
       direct("tyre_compliance", "both", {positive("metres_per_newton", 5e-7, 3e-6)}),
-      squared("contact_patch", "width_m", 0.01, 0.03, wheel_width_m),
+      costing(kNarrowContact, squared("contact_patch", "width_m", 0.01, 0.03, wheel_width_m)),
       direct("tyre_creep", "along and across", {{"along", 0, 5e-3, 0.02, 0, 0.1}, {"across", 0, 5e-3, 0.02, 0, 0.1}}),
       from_start(direct("caster_swivel", "friction", {positive("friction_nm", 0.1, 0.5)}, {{"trail_m", 0.03}}), 0.3),
       from_start(direct("caster_swivel", "askew", {{"initial_angle_rad", 0, 0.3, 2, -3.14, 3.14}},
@@ -200,8 +205,7 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution,
   };
   for (Family& f : all) {
     const auto same = [&](const Family& g) { return g.effect == f.effect; };
-    f.variant_cost = std::log(double(std::count_if(all.begin(), all.end(), same)));
-    if (f.effect == "contact_patch") f.variant_cost += kNarrowContact;
+    f.variant_cost += std::log(double(std::count_if(all.begin(), all.end(), same)));
   }
   return all;
 }
