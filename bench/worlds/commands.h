@@ -1,0 +1,12 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace umbsim::worlds {
+
+void add_draw_command(CLI::App& app);
+void add_inject_command(CLI::App& app);
+void add_score_command(CLI::App& app);
+void add_table_command(CLI::App& app);
+
+}  // namespace umbsim::worlds

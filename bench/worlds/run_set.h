@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/worlds/driver.h"
+#include "bench/worlds/robot.h"
+#include "effects/rig.h"
+#include "recording/recording.h"
+
+namespace umbsim::worlds {
+
+/// Which runs a world's recording has.
+constexpr const char* kRunSets[] = {"plain_2", "plain_5", "recommended", "circles", "eights", "free", "one_way"};
+
+/// A recording before it is driven, and the way of each of its runs.
+struct PlannedRuns {
+  std::string set;
+  Recording recording;  ///< header and runs without data
+  std::vector<Way> ways;
+};
+
+/// Courses and speeds that suit the robot. Squares are recorded as such; circles, figures of eight and free driving
+/// too, as far as the format can say it.
+PlannedRuns plan_runs(const std::string& set, const WorldRobot& robot, double rate_hz, RandomStream& random);
+
+/// The way of run `number` as the effects' demand asks for it.
+Way demanded_way(const PlannedRuns& planned, std::size_t number, const Demand& demand);
+
+/// Standstill to standstill by the robot's own limits, with dwells.
+double duration_s(const Way& way);
+
+}  // namespace umbsim::worlds
