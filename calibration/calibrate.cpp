@@ -4,6 +4,15 @@
 
 namespace umbsim {
 
+const char* name(CalibrationMethod method) { return method == CalibrationMethod::endpoint ? "endpoint" : "heading"; }
+
+const char* when_to_trust(CalibrationMethod method) {
+  return method == CalibrationMethod::endpoint
+             ? "as published; needs positions only, so no wrong heading touches it; biased for large errors "
+               "(small angles)"
+             : "exact for large errors; needs headings as good as the positions, and an exact start heading";
+}
+
 OdometryParameters corrected(const OdometryParameters& odometry, const ErrorEstimate& errors) {
   OdometryParameters result = odometry;
   result.left_radius_m *= errors.left_factor;

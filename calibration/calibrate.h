@@ -13,6 +13,11 @@ inline const ErrorEstimate& estimate(const Umbmark& u, CalibrationMethod method)
   return method == CalibrationMethod::endpoint ? u.endpoint : u.heading;
 }
 
+const char* name(CalibrationMethod method);
+
+/// When to trust this form's corrections, in one line.
+const char* when_to_trust(CalibrationMethod method);
+
 /// The odometry with the corrections of Borenstein & Feng 1996: radii times c_L and c_R (their mean stays), wheelbase
 /// times E_b.
 OdometryParameters corrected(const OdometryParameters& odometry, const ErrorEstimate& errors);

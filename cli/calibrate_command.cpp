@@ -1,14 +1,17 @@
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "calibration/calibrate.h"
+#include "calibration/intake/intake.h"
 #include "cli/commands.h"
+#include "cli/help.h"
 #include "cli/tables.h"
 #include "core/text_file.h"
+#include "core/wrapped_text.h"
+#include "experiment/result_folder.h"
 #include "experiment/result_json.h"
-#include "experiment/run_folder.h"
 
 namespace umbsim {
 namespace {
@@ -22,35 +25,38 @@ struct CalibrateArguments {
 
 void calibrate(const CalibrateArguments& a) {
   namespace fs = std::filesystem;
-  const Recording recording = read_recording(a.recording);
+  const auto [recording, limits] = intake::take_in(a.recording);
   const OdometryParameters nominal{recording.robot.wheel_radius_m, recording.robot.wheel_radius_m,
                                    recording.robot.wheelbase_m, recording.robot.ticks_per_revolution};
   const Umbmark u = umbmark(recording, nominal);
   const auto method = a.method == "endpoint" ? CalibrationMethod::endpoint : CalibrationMethod::heading;
   const OdometryParameters calibrated = corrected(nominal, estimate(u, method));
-  std::string base = fs::absolute(a.recording).lexically_normal().filename().string();
-  if (base.empty()) base = fs::absolute(a.recording).lexically_normal().parent_path().filename().string();
-  const std::string out = a.out.empty() ? "results/" + base + "-calibration" : a.out;
+  const std::string base = folder_name(a.recording);
+  ResultFolder out(a.out, base + "-calibration", a.force);
 
   Json json{{"format", "umbsim-calibration/1"},
             {"method", a.method},
             {"umbmark", umbmark_json(u)},
-            {"calibration", {{"endpoint", estimate_json(u.endpoint)}, {"heading", estimate_json(u.heading)}}},
+            {"calibration", calibration_json(u, method)},
             {"odometry",
              {{"left_radius_m", calibrated.left_radius_m},
               {"right_radius_m", calibrated.right_radius_m},
-              {"wheelbase_m", calibrated.wheelbase_m}}}};
-  write_folder(out, a.force, [&](const fs::path& into) {
+              {"wheelbase_m", calibrated.wheelbase_m}}},
+            {"limits", limits}};
+  out.write([&](const fs::path& into) {
     const std::string comment = fmt::format("Odometry calibrated on '{}' ({} form)", base, a.method);
     write_text_file(into / "calibration.yaml", calibration_yaml(calibrated, comment));
     write_text_file(into / "calibration.json", json.dump(2) + "\n");
     write_text_file(into / "provenance.json", provenance_json(a.recording, 0).dump(2) + "\n");
   });
-  fmt::print("{}: {}\n{}", base, recording.title, umbmark_table(u));
+  fmt::print("{}{}", wrapped(fmt::format("{}: {}", base, recording.title)), umbmark_table(u, method));
   if (const auto extended = extended_umbmark(recording, nominal, u)) fmt::print("{}", extended_table(*extended));
-  fmt::print("Calibrated odometry ({} form): left radius {:.6f} m, right radius {:.6f} m, wheelbase {:.6f} m\n"
-             "Result in {}: calibration.yaml, calibration.json\n",
-             a.method, calibrated.left_radius_m, calibrated.right_radius_m, calibrated.wheelbase_m, out);
+  for (const std::string& limit : limits) fmt::print("{}", wrapped("Limit: " + limit));
+  fmt::print("{}Result in {}: calibration.yaml, calibration.json\n",
+             wrapped(fmt::format(
+                 "Calibrated odometry ({} form): left radius {:.6f} m, right radius {:.6f} m, wheelbase {:.6f} m",
+                 a.method, calibrated.left_radius_m, calibrated.right_radius_m, calibrated.wheelbase_m)),
+             out.said());
 }
 
 }  // namespace
@@ -64,6 +70,7 @@ void add_calibrate_command(CLI::App& app) {
       ->check(CLI::IsMember({"heading", "endpoint"}))
       ->capture_default_str();
   command->add_flag("--force", a->force, "Replace a finished result");
+  add_example(command, "umbsim calibrate results/umbmark");
   command->callback([a] { calibrate(*a); });
 }
 

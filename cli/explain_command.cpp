@@ -1,13 +1,16 @@
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/help.h"
+#include "cli/shipped.h"
 #include "cli/tables.h"
 #include "core/text_file.h"
 #include "experiment/explain.h"
+#include "experiment/result_folder.h"
 #include "experiment/result_json.h"
-#include "experiment/run_folder.h"
 
 namespace umbsim {
 namespace {
@@ -21,18 +24,20 @@ struct ExplainArguments {
 };
 
 void explain_scenario(const ExplainArguments& a) {
-  const Scenario scenario = read_scenario(a.scenario, a.settings);
-  if (!a.out.empty()) prepare_output_folder(a.out, a.force);
+  const Scenario scenario = read_scenario(shipped_path(ShippedKind::scenario, a.scenario), a.settings);
+  std::optional<ResultFolder> out;
+  if (!a.out.empty()) out.emplace(a.out, "", a.force);
+  print_warnings(silent_effects(scenario, load_scenario_robot(scenario)));
   const Explanation explanation = explain(scenario, a.jobs);
-  if (!a.out.empty()) {
-    write_folder(a.out, a.force, [&](const std::filesystem::path& into) {
+  if (out) {
+    out->write([&](const std::filesystem::path& into) {
       write_text_file(into / "explain.json", explanation_json(scenario, explanation).dump(2) + "\n");
-      write_text_file(into / "scenario.resolved.yaml", resolved_yaml(scenario));
+      write_scenario(scenario, into / "scenario.resolved.yaml");
       write_text_file(into / "provenance.json", provenance_json(scenario.file, scenario.seed).dump(2) + "\n");
     });
   }
   fmt::print("{}", explanation_table(scenario, explanation));
-  if (!a.out.empty()) fmt::print("Result in {}: explain.json\n", a.out);
+  if (out) fmt::print("Result in {}: explain.json\n", out->path());
 }
 
 }  // namespace
@@ -41,13 +46,14 @@ void add_explain_command(CLI::App& app) {
   const auto a = std::make_shared<ExplainArguments>();
   CLI::App* command =
       app.add_subcommand("explain", "Say which effect of a scenario causes how much of its return error");
-  command->add_option("scenario", a->scenario, "Scenario file (YAML)")->required();
+  command->add_option("scenario", a->scenario, "Scenario: a file (YAML) or a shipped one's name")->required();
   command->add_option("-o,--out", a->out, "Folder for explain.json; without it only the table is shown");
   command->add_option("--set", a->settings, "Replace a value of the scenario: --set course.side_m=2 (repeatable)")
       ->allow_extra_args(false);
   command->add_flag("--force", a->force, "Replace a finished result");
   command->add_option("-j,--jobs", a->jobs, "Runs driven at the same time; 0: one per core")
       ->check(CLI::Range(0, 1024));
+  add_example(command, "umbsim explain unidirectional_trap");
   command->callback([a] { explain_scenario(*a); });
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "cli/tables.h"
+#include "core/wrapped_text.h"
 
 namespace umbsim {
 namespace {
@@ -10,24 +11,30 @@ std::string cells(const Contribution& c) {
                      degrees(c.heading_rad));
 }
 
-std::string line(const char* label, const Contribution& c) { return fmt::format("  {:<28}{}\n", label, cells(c)); }
+std::string line(const std::string& label, const Contribution& c) {
+  constexpr std::size_t kLabel = 28;
+  return fmt::format("  {}{}\n", fitted(label, kLabel), cells(c));
+}
+
+std::string header(const std::string& title) {
+  return fmt::format("  {:<28}{:>11}{:>11}{:>11}{:>10}\n", title, "x mm", "y mm", "r mm", "heading");
+}
 
 std::string direction_table(const Explanation& e, Direction d) {
-  constexpr const char* kColumns = "       x mm       y mm       r mm   heading";
-  std::string text = fmt::format("{}\n  {:<28}{:^43}  {:^43}\n  {:<28}{}  {}\n", name(d), "", "alone",
-                                 "missed if left out", "effect", kColumns, kColumns);
-  for (const ExplainedEffect& effect : e.effects) {
-    text += fmt::format("  {:<28}{}  {}\n", effect.name, cells(effect.alone.at(d)), cells(effect.missed.at(d)));
-  }
-  text += line("sum of the effects alone", e.sum_alone.at(d)) + line("their interaction", e.interaction.at(d)) +
-          line("without any effect", e.baseline.at(d)) + line("the scenario", e.whole.at(d));
+  std::string text = fmt::format("{}\n", name(d)) + header("each effect alone");
+  for (const ExplainedEffect& effect : e.effects) text += line(effect.name, effect.alone.at(d));
+  text += header("missed if it is left out");
+  for (const ExplainedEffect& effect : e.effects) text += line(effect.name, effect.missed.at(d));
+  text += header("together") + line("sum of the effects alone", e.sum_alone.at(d)) +
+          line("their interaction", e.interaction.at(d)) + line("without any effect", e.baseline.at(d)) +
+          line("the scenario", e.whole.at(d));
   return text;
 }
 
 }  // namespace
 
 std::string explanation_table(const Scenario& scenario, const Explanation& e) {
-  std::string text = fmt::format("{}: what each effect does to the return error (mm, degrees)\n", scenario.name);
+  std::string text = wrapped(fmt::format("{}: what each effect does to the return error (mm, degrees)", scenario.name));
   for (const auto& [direction, whole] : e.whole) text += direction_table(e, direction);
   if (e.effects.empty()) text += "  The scenario has no effects; add some under `effects:`, or with --set.\n";
   return text;

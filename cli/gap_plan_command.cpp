@@ -1,17 +1,20 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cmath>
 #include <filesystem>
 #include <memory>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
+#include "calibration/intake/intake.h"
 #include "cli/commands.h"
 #include "cli/gap_menu.h"
 #include "cli/gap_simulator.h"
+#include "cli/help.h"
+#include "cli/jobs.h"
+#include "cli/shipped.h"
 #include "core/text_file.h"
+#include "experiment/result_folder.h"
 #include "experiment/result_json.h"
-#include "experiment/run_folder.h"
-#include "gap/check.h"
 #include "gap/clock.h"
 #include "gap/plan_json.h"
 #include "gap/remembered.h"
@@ -29,6 +32,8 @@ struct PlanArguments {
   gap::PlanOptions options;
   bool force = false;
   bool no_cache = false;
+  bool matrix = false;
+  int jobs = 0;
 };
 
 /// The runs that are asked about, as the nominal robot drives them, and what is known of the noise.
@@ -63,7 +68,7 @@ gap::NoiseModel noise_of(const Scenario& s, const RecordedRobot& robot, std::vec
 
 Subject of_scenario(const std::string& file) {
   Subject s;
-  s.scenario = read_scenario(file);
+  s.scenario = read_scenario(shipped_path(ShippedKind::scenario, file));
   s.name = s.scenario.name;
   s.recording = gap::with_moments_between(run_experiment(nominal_scenario(s.scenario), 0, false).recording);
   s.recording.title = s.scenario.description.empty() ? s.name : s.scenario.description;
@@ -77,10 +82,10 @@ Subject of_scenario(const std::string& file) {
 // The recorded poses give the noise and the start, and are then replaced by what the nominal robot would do.
 Subject of_recording(const std::string& folder, bool no_cache) {
   Subject s;
-  const Recording given = read_recording(folder);
-  s.limits = gap::check_recording(given, folder);
-  s.name = fs::absolute(folder / fs::path(".")).lexically_normal().parent_path().filename().string();
-  s.recording = gap::followed_through(given, s.limits);
+  intake::Intake given = intake::take_in(folder);
+  s.limits = std::move(given.limits);
+  s.name = folder_name(folder);
+  s.recording = gap::followed_through(given.recording, s.limits);
   s.scenario = scenario_of(s.recording, folder);
   const Replay replay(s.scenario, s.recording);
   const gap::Model model(s.recording, gap::remembered(cached_gap_simulator(replay, no_cache), s.recording), s.scatter);
@@ -93,6 +98,12 @@ Subject of_recording(const std::string& folder, bool no_cache) {
   }
   s.recording = std::move(nominal);
   return s;
+}
+
+// A folder that is none may have the name of a shipped scenario.
+bool is_recording(const std::string& subject) {
+  if (fs::exists(fs::path(subject) / "recording.yaml")) return true;
+  return fs::is_directory(subject) && shipped_path(ShippedKind::scenario, subject) == subject;
 }
 
 std::vector<double> durations_s(const Recording& recording) {
@@ -113,10 +124,10 @@ gap::PlanOptions options_of(const PlanArguments& a) {
 }
 
 void plan(const PlanArguments& a) {
+  const ThreadLimit limit(a.jobs);
   const gap::PlanOptions options = options_of(a);
-  Subject s = fs::is_directory(a.subject) ? of_recording(a.subject, a.no_cache) : of_scenario(a.subject);
-  const std::string out = a.out.empty() ? "results/" + s.name + "-plan" : a.out;
-  prepare_output_folder(out, a.force);
+  Subject s = is_recording(a.subject) ? of_recording(a.subject, a.no_cache) : of_scenario(a.subject);
+  ResultFolder out(a.out, s.name + "-plan", a.force);
   gap::PlanContext context{s.recording.title, {}, {}, s.recording.runs.size(), s.limits};
   for (const RecordedRun& run : s.recording.runs) context.labels.push_back(run.id);
   const std::vector<gap::MenuRun> menu = menu_for(s.scenario, s.recording.path);
@@ -124,17 +135,17 @@ void plan(const PlanArguments& a) {
   const Recording all = with_menu(s.recording, s.scenario, menu);
   context.durations_s = durations_s(all);
   const Replay replay(s.scenario, all);
-  GapStages stages(all.runs.size());
-  stages.say("driving the runs and the menu under every effect");
+  GapStages stages(all.runs.size(), gap::stages_of_plan());
+  const gap::Say say = [&](const std::string& stage, double share) { stages.say(stage, share); };
   const gap::Simulator simulator = stages.counted(cached_gap_simulator(replay, a.no_cache));
   const gap::Model model(all, gap::remembered(simulator, all), s.scatter, s.noise);
-  const gap::Plan result = gap::plan(model, context.given, s.scatter.radius, options);
+  const gap::Plan result = gap::plan(model, context.given, s.scatter.radius, options, say);
   stages.done();
-  write_folder(out, a.force, [&](const fs::path& into) {
+  out.write([&](const fs::path& into) {
     write_text_file(into / "plan.json", gap::plan_json(result, context, options, s.noise).dump(1) + "\n");
     write_text_file(into / "provenance.json", provenance_json(a.subject, options.seed).dump(2) + "\n");
   });
-  fmt::print("{}Result in {}: plan.json\n", gap::plan_text(result, context, options), out);
+  fmt::print("{}Result in {}: plan.json\n", gap::plan_text(result, context, options, a.matrix), out.said());
 }
 
 }  // namespace
@@ -160,6 +171,9 @@ void add_gap_plan_command(CLI::App& group) {
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<name>-plan");
   command->add_flag("--force", a->force, "Replace a finished result");
   command->add_flag("--no-cache", a->no_cache, "Keep no simulated tracks in the user's cache folder, and use none");
+  command->add_flag("--matrix", a->matrix, "Print the whole matrix of what would be named for what");
+  add_threads_option(*command, a->jobs);
+  add_example(command, "umbsim gap plan umbmark");
   command->callback([a] { plan(*a); });
 }
 

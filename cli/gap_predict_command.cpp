@@ -1,17 +1,21 @@
-#include <filesystem>
-#include <memory>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
+#include <filesystem>
+#include <memory>
+
 #include "calibration/calibrate.h"
+#include "calibration/intake/intake.h"
 #include "cli/commands.h"
+#include "cli/help.h"
+#include "cli/jobs.h"
+#include "cli/shipped.h"
 #include "core/text_file.h"
+#include "core/wrapped_text.h"
 #include "experiment/replay.h"
+#include "experiment/result_folder.h"
 #include "experiment/result_json.h"
-#include "experiment/run_folder.h"
-#include "gap/check.h"
 #include "gap/prediction.h"
 
 namespace umbsim {
@@ -25,6 +29,7 @@ struct PredictArguments {
   std::string squares;
   std::string out;
   bool force = false;
+  int jobs = 0;
 };
 
 gap::Prediction replayed(const std::string& name, const Replay& replay, const std::vector<Effect>& effects) {
@@ -45,7 +50,7 @@ std::vector<gap::Prediction> predictions(const Replay& replay, const std::vector
   std::vector<gap::Prediction> all{replayed("before", replay, {}), replayed("after", replay, effects),
                                    gap::reckoned("odometry", recording, nominal)};
   if (squares.empty()) return all;
-  const Umbmark u = umbmark(read_recording(squares), nominal);
+  const Umbmark u = umbmark(intake::take_in(squares).recording, nominal);
   all.push_back(gap::reckoned("umbmark", recording, corrected(nominal, u.endpoint)));
   all.push_back(gap::reckoned("heading", recording, corrected(nominal, u.heading)));
   return all;
@@ -85,16 +90,15 @@ Json prediction_json(const Recording& recording, const std::vector<Scores>& all)
   return json;
 }
 
-std::string table(const Recording& recording, const std::vector<Scores>& all) {
-  std::string text = fmt::format("{:14}", "run");
-  for (const Scores& s : all) text += fmt::format("{:>22}", s.name);
+std::string table(const Recording& recording, const std::vector<Scores>& all, const std::string& title,
+                  double gap::RunError::*error) {
+  constexpr std::size_t kLabel = 24;
+  std::string text = fitted(title, kLabel);
+  for (const Scores& s : all) text += fmt::format("{:>11}", s.name);
   text += "\n";
   const auto row = [&](const std::string& name, const auto& pick) {
-    text += fmt::format("{:14}", name);
-    for (const Scores& s : all) {
-      const gap::RunError& e = pick(s);
-      text += fmt::format("{:>11.1f} ({:>6.1f})", e.final_mm, e.raw_final_mm) + "  ";
-    }
+    text += fitted("  " + name, kLabel);
+    for (const Scores& s : all) text += fmt::format("{:>11.1f}", pick(s).*error);
     text += "\n";
   };
   for (std::size_t r = 0; r < recording.runs.size(); ++r) {
@@ -105,29 +109,28 @@ std::string table(const Recording& recording, const std::vector<Scores>& all) {
 }
 
 void predict(const PredictArguments& a) {
-  const Recording recording = read_recording(a.recording);
-  gap::check_recording(recording, a.recording);
-  const Scenario scenario = read_scenario(a.scenario);
-  const std::string base =
-      fs::absolute(a.recording / fs::path(".")).lexically_normal().parent_path().filename().string();
-  const std::string out = a.out.empty() ? "results/" + base + "-prediction" : a.out;
-  prepare_output_folder(out, a.force);
+  const ThreadLimit limit(a.jobs);
+  const Recording recording = intake::take_in(a.recording).recording;
+  const Scenario scenario = read_scenario(shipped_path(ShippedKind::scenario, a.scenario));
+  const std::string base = folder_name(a.recording);
+  ResultFolder out(a.out, base + "-prediction", a.force);
   Scenario without = scenario;
   without.effects.clear();
   const Replay replay(without, recording, false);
   std::vector<Scores> all;
   for (const gap::Prediction& p : predictions(replay, scenario.effects, a.squares)) all.push_back(scores(recording, p));
-  write_folder(out, a.force, [&](const fs::path& into) {
+  out.write([&](const fs::path& into) {
     write_text_file(into / "prediction.json", prediction_json(recording, all).dump(2) + "\n");
     write_text_file(into / "provenance.json", provenance_json(a.recording, 0).dump(2) + "\n");
   });
   std::vector<std::string> effects;
   for (const Effect& e : scenario.effects) effects.push_back(e.info->name);
-  fmt::print(
-      "{}: {}\nEffects of {}: {}\nFinal position error in mm, start and frame fitted (recorded start taken as exact)\n"
-      "{}Result in {}: prediction.json\n",
-      base, recording.title, a.scenario, effects.empty() ? "none" : fmt::format("{}", fmt::join(effects, ", ")),
-      table(recording, all), out);
+  fmt::print("{}{}Final position error, mm\n{}{}Result in {}: prediction.json\n",
+             wrapped(fmt::format("{}: {}", base, recording.title)),
+             wrapped(fmt::format("Effects of {}: {}", a.scenario,
+                                 effects.empty() ? "none" : fmt::format("{}", fmt::join(effects, ", ")))),
+             table(recording, all, "start and frame fitted", &gap::RunError::final_mm),
+             table(recording, all, "recorded start as exact", &gap::RunError::raw_final_mm), out.said());
 }
 
 }  // namespace
@@ -144,6 +147,9 @@ void add_gap_predict_command(CLI::App& group) {
                       "UMBmark squares of the same robot: compare with odometry calibrated on them");
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<recording>-prediction");
   command->add_flag("--force", a->force, "Replace a finished result");
+  add_threads_option(*command, a->jobs);
+  add_example(command,
+              "umbsim gap predict results/umbmark --scenario \\\n    results/umbmark-diagnosis/twin.yaml");
   command->callback([a] { predict(*a); });
 }
 

@@ -1,9 +1,10 @@
 #include "cli/gap_simulator.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 #include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "core/sha256.h"
@@ -24,21 +25,37 @@ std::string identity(const Scenario& scenario) {
   return text + sha256(read_text_file(scenario_urdf(scenario), kMaxFileBytes));
 }
 
-void show_stage(double elapsed_s, const std::string& stage, double left_s) {
-  const std::string left = left_s < 0 ? "" : fmt::format(", about {:.0f} s left", std::ceil(left_s));
-  fmt::print(stderr, "\r\033[K{:5.1f} s  {}{}", elapsed_s, stage, left);
+// Coarser the longer it is, for nobody knows it to the second.
+std::string time_text(double left_s) {
+  if (left_s > 90) return fmt::format("{:.0f} min", std::ceil(left_s / 60));
+  const double step_s = left_s > 30 ? 10 : left_s > 10 ? 5 : 1;
+  return fmt::format("{:.0f} s", std::max(1.0, std::ceil(left_s / step_s)) * step_s);
 }
 
-void show_nothing(double, const std::string&, double) {}
+void show_progress(const gap::ProgressShown& p) {
+  const std::string left = p.left_s < 0 || p.fraction == 1 ? "" : fmt::format(", about {} left", time_text(p.left_s));
+  fmt::print(stderr, "\r\033[K{:3.0f} %  {}{}", std::floor(100 * p.fraction), p.stage, left);
+}
+
+void show_nothing(const gap::ProgressShown&) {}
 
 }  // namespace
 
-GapStages::GapStages(std::size_t runs)
-    : terminal_(isatty(2) != 0), progress_(runs, terminal_ ? show_stage : show_nothing) {}
+GapStages::GapStages(std::size_t runs, std::vector<gap::UsualStage> usual)
+    : terminal_(isatty(2) != 0), progress_(runs, std::move(usual), terminal_ ? show_progress : show_nothing) {}
 
-GapStages::~GapStages() { done(); }
+// Where the work failed the line must not stand before the error.
+GapStages::~GapStages() {
+  if (!done_) wipe();
+}
 
 void GapStages::done() {
+  progress_.finish();
+  wipe();
+  done_ = true;
+}
+
+void GapStages::wipe() const {
   if (terminal_) fmt::print(stderr, "\r\033[K");
 }
 

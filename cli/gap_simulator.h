@@ -15,21 +15,25 @@ gap::Simulator gap_simulator(const Replay& replay);
 /// The same, with its tracks kept in the user's cache folder; `no_cache`: only while the program runs.
 gap::Simulator cached_gap_simulator(const Replay& replay, bool no_cache);
 
-/// Stages of the work and the time left, on a terminal only; the line is wiped at the end.
+/// The stage of the work, how far the whole has come and the time left, on a terminal only; the line is wiped at the
+/// end.
 class GapStages {
  public:
-  explicit GapStages(std::size_t runs);
+  GapStages(std::size_t runs, std::vector<gap::UsualStage> usual);
   ~GapStages();
   GapStages(const GapStages&) = delete;
   GapStages& operator=(const GapStages&) = delete;
 
   /// The same simulator, counted. The stages must outlive it.
   gap::Simulator counted(gap::Simulator simulator) { return progress_.counted(std::move(simulator)); }
-  void say(const std::string& stage) { progress_.stage(stage); }
+  void say(const std::string& stage, double share) { progress_.stage(stage, share); }
   void done();
 
  private:
+  void wipe() const;
+
   bool terminal_;
+  bool done_ = false;
   gap::DiagnosisProgress progress_;
 };
 

@@ -1,11 +1,14 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <filesystem>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "cli/commands.h"
+#include "cli/help.h"
+#include "cli/shipped.h"
 #include "core/text_file.h"
+#include "core/wrapped_text.h"
 #include "experiment/planned_runs.h"
 #include "experiment/result_json.h"
 #include "experiment/run_folder.h"
@@ -55,7 +58,7 @@ Recording simulate(const TrialDrive& drive) {
 std::string default_folder(const TrialPlan& plan) { return "results/trial-" + plan.name; }
 
 void generate(const TrialArguments& a) {
-  const TrialPlan plan = read_trial(a.file);
+  const TrialPlan plan = read_trial(shipped_path(ShippedKind::trial, a.file));
   const TrialFolder folder(a.folder.empty() ? default_folder(plan) : a.folder);
   const GenerateResult result = generate_trial(plan, folder, simulate, parse_shard(a.shard), a.jobs);
   fmt::print("{}: {} of {} cases stand\n", folder.root.string(), result.finished, result.cases);
@@ -88,11 +91,12 @@ void score(const TrialArguments& a) {
   const fs::path answers = a.answers.empty() ? folder.answers() : fs::path(a.answers);
   const TrialScore result = score_trial(folder, answers);
   write_score(result, folder.score(), answers);
-  fmt::print("{}Result in {}: summary.json, summary.md, table.txt, confusion.csv, confusion.svg\n", score_table(result),
-             folder.score().string());
+  fmt::print("{}Result in {}: summary.json, summary.md, table.txt, confusion.csv, confusion.svg\n",
+             wrapped_lines(score_table(result), 6), folder.score().string());
 }
 
 void whole_trial(TrialArguments a) {
+  a.file = shipped_path(ShippedKind::trial, a.file, {"generate", "diagnose", "score"});
   if (a.folder.empty()) a.folder = default_folder(read_trial(a.file));
   generate(a);
   diagnose(a);
@@ -102,7 +106,8 @@ void whole_trial(TrialArguments a) {
 using Arguments = std::shared_ptr<TrialArguments>;
 
 void add_jobs(CLI::App& command, const Arguments& a) {
-  command.add_option("-j,--jobs", a->jobs, "Cases at the same time; 0: one per core")->check(CLI::Range(0, 1024));
+  command.add_option("-j,--jobs", a->jobs, "Cases at the same time, and cores for all of them; 0: one per core")
+      ->check(CLI::Range(0, 1024));
 }
 
 void add_shard(CLI::App& command, const Arguments& a) {
@@ -123,10 +128,11 @@ void add_folder(CLI::App& command, const Arguments& a) {
 
 void add_generate(CLI::App& trial, const Arguments& a) {
   CLI::App* command = trial.add_subcommand("generate", "Draw the cases, drive them, seal the answers");
-  command->add_option("trial", a->file, "Trial file (YAML)")->required();
+  command->add_option("trial", a->file, "Trial: a file (YAML) or a shipped one's name")->required();
   command->add_option("-o,--out", a->folder, "Folder of the trial; default results/trial-<name>");
   add_jobs(*command, a);
   add_shard(*command, a);
+  add_example(command, "umbsim gap trial generate ci");
   command->callback([a] { generate(*a); });
 }
 
@@ -137,6 +143,7 @@ void add_diagnose(CLI::App& trial, const Arguments& a) {
   add_diagnosis(*command, a);
   add_jobs(*command, a);
   add_shard(*command, a);
+  add_example(command, "umbsim gap trial diagnose results/trial-ci");
   command->callback([a] { diagnose(*a); });
 }
 
@@ -144,6 +151,7 @@ void add_score(CLI::App& trial, const Arguments& a) {
   CLI::App* command = trial.add_subcommand("score", "Open the answers and compare");
   add_folder(*command, a);
   command->add_option("--answers", a->answers, "Answers file (JSON or YAML, docs/trial.md); default: the trial's own");
+  add_example(command, "umbsim gap trial score results/trial-ci");
   command->callback([a] { score(*a); });
 }
 
@@ -154,13 +162,14 @@ void add_gap_trial_command(CLI::App& gap) {
   CLI::App* trial = gap.add_subcommand(
       "trial", "Draw cases whose effect is withheld, have them diagnosed, score; does what is not done yet");
   trial->require_subcommand(0, 1);
-  trial->add_option("trial", a->file, "Trial file (YAML)");
+  trial->add_option("trial", a->file, "Trial: a file (YAML) or a shipped one's name");
   trial->add_option("-o,--out", a->folder, "Folder of the trial; default results/trial-<name>");
   add_diagnosis(*trial, a);
   add_jobs(*trial, a);
   add_generate(*trial, std::make_shared<TrialArguments>());
   add_diagnose(*trial, std::make_shared<TrialArguments>());
   add_score(*trial, std::make_shared<TrialArguments>());
+  add_example(trial, "umbsim gap trial ci");
   trial->callback([a, trial] {
     if (!trial->get_subcommands().empty()) return;
     if (a->file.empty()) throw CLI::RequiredError("TRIAL.yaml, generate, diagnose or score");

@@ -1,13 +1,19 @@
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/commands.h"
 #include "cli/exit.h"
+#include "cli/help.h"
 #include "core/error.h"
-#include "core/yaml_reader.h"
 #include "experiment/build_info.h"
 
 namespace {
@@ -19,43 +25,44 @@ using umbsim::kRunFailed;
 constexpr void (*kCommands[])(CLI::App&) = {
     umbsim::add_run_command,
     umbsim::add_calibrate_command,
+    umbsim::add_list_command,
     umbsim::add_effects_command,
     umbsim::add_explain_command,
     umbsim::add_sweep_command,
     umbsim::add_gap_command,
 };
 
-std::vector<std::string> subcommands(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    names.push_back(command->get_name());
-  }
-  return names;
+// Words are buffered: a full disk shows when the last of them are written.
+int checked(int code) {
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good()) return code;
+  if (code != 0 && code != umbsim::kUnmet) return code;  // what went wrong before has been said
+  const char* why = errno == 0 ? "write error" : std::strerror(errno);
+  fmt::print(stderr, "umbsim: standard output cannot be written completely: {}\n", why);
+  return kRunFailed;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app{
       "umbsim: a physics testbed for honest odometry. Drives UMBmark squares in a Bullet world with wheel errors, "
       "cables and noise, reports what UMBmark makes of them, calibrates, and proves it by driving again.\n\n"
       "Exit codes: 0 done, 1 an expectation was not met, 2 bad input or usage, 3 the run failed."};
   app.name("umbsim");
+  app.formatter(std::make_shared<umbsim::HelpFormatter>());
+  umbsim::add_example(&app, "umbsim run umbmark");
   const umbsim::BuildInfo info = umbsim::build_info();
   app.set_version_flag("--version", fmt::format("umbsim {} ({}, Bullet {})", info.version, info.commit, info.bullet));
   app.require_subcommand(1);
   for (const auto add : kCommands) add(app);
+  const std::vector<std::string> words = umbsim::with_help_option(app, {argv + 1, argv + argc});
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     return 0;
   } catch (const CLI::ParseError& e) {
-    const std::vector<std::string> extra = app.remaining();
-    if (app.get_subcommands().empty() && !extra.empty() && extra.front().rfind('-', 0) != 0) {
-      fmt::print(stderr, "umbsim: unknown subcommand '{}'; {}\n", extra.front(),
-                 umbsim::list_choices(extra.front(), subcommands(app)));
-      return kBadInput;
-    }
-    return app.exit(e) == 0 ? 0 : kBadInput;
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    fmt::print(stderr, "umbsim: {}\n", umbsim::usage_error(app, words, e));
+    return kBadInput;
   } catch (const umbsim::Exit& e) {
     if (*e.what()) fmt::print(stderr, "umbsim: {}\n", e.what());
     return e.code;
@@ -67,3 +74,7 @@ int main(int argc, char** argv) {
     return kRunFailed;
   }
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return checked(run(argc, argv)); }

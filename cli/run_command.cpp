@@ -1,25 +1,29 @@
-#include <memory>
-#include <optional>
-
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
+#include <memory>
+
+#include "batch/stop.h"
 #include "cli/commands.h"
 #include "cli/exit.h"
+#include "cli/help.h"
+#include "cli/jobs.h"
+#include "cli/shipped.h"
 #include "cli/tables.h"
 #include "core/text_file.h"
 #include "experiment/figures.h"
 #include "experiment/junit.h"
+#include "experiment/result_folder.h"
 #include "experiment/result_json.h"
 #include "experiment/run.h"
 #include "experiment/run_folder.h"
+#include "experiment/run_size.h"
 #include "report/report.h"
 
 namespace umbsim {
 namespace {
 
 struct RunArguments {
-  std::string scenario = UMBSIM_SCENARIOS_DIR "/umbmark.yaml";
+  std::string scenario = "umbmark";
   std::string out;
   std::string junit;
   std::vector<std::string> settings;
@@ -32,17 +36,27 @@ std::vector<Check> check(const ExperimentResult& result) {
   return umbsim::check(result.scenario.expect, {figure_names(), {{0, result.scenario.name, "", figures_of(result)}}});
 }
 
+// Rows are written while they are driven: what stands so far goes before the program does.
+void stop_if_asked() {
+  if (const int signal = StopRequests::received()) throw Exit(kSignalled + signal, "stopped; nothing was written");
+}
+
 void run(const RunArguments& a) {
-  const Scenario scenario = read_scenario(a.scenario, a.settings);
-  const std::string out = a.out.empty() ? "results/" + scenario.name : a.out;
-  prepare_output_folder(out, a.force);
-  std::optional<tbb::global_control> limit;  // of writing, too
-  if (a.jobs > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(a.jobs));
-  const ExperimentResult result = run_experiment(scenario, a.jobs);
-  write_run_folder(result, render_report(report_json(result)), out, a.force);
+  const Scenario scenario = read_scenario(shipped_path(ShippedKind::scenario, a.scenario), a.settings);
+  ResultFolder out(a.out, scenario.name, a.force);
+  print_warnings(silent_effects(scenario, load_scenario_robot(scenario)));
+  check_room(expected_size(scenario), out.path());
+  const ThreadLimit limit(a.jobs);  // of writing, too
+  const StopRequests listen;
+  ExperimentResult result;
+  out.write([&](const std::filesystem::path& into) {
+    result = run_experiment(scenario, a.jobs, true, {Rows::To::folder, into}, stop_if_asked);
+    complete_run_folder(result, render_report(report_json(result)), into);
+  });
   const std::vector<Check> checks = check(result);
   if (!a.junit.empty()) replace_text_file(a.junit, junit_xml(scenario.name, checks, {}));
-  fmt::print("{}{}Result in {}: open {}/report.html\n", experiment_table(result), checks_text(checks), out, out);
+  fmt::print("{}{}Result in {}: open {}/report.html\n", experiment_table(result), checks_text(checks),
+             out.said(), out.path());
   if (!all_met(checks)) throw Exit(kUnmet, "an expectation was not met");
 }
 
@@ -51,7 +65,7 @@ void run(const RunArguments& a) {
 void add_run_command(CLI::App& app) {
   const auto a = std::make_shared<RunArguments>();
   CLI::App* command = app.add_subcommand("run", "Drive a scenario's squares, measure, calibrate, drive again, report");
-  command->add_option("scenario", a->scenario, "Scenario file (YAML); without one the LabMate UMBmark is run");
+  command->add_option("scenario", a->scenario, "Scenario: a file (YAML) or a shipped one's name; default umbmark");
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<scenario name>");
   command->add_option("--set", a->settings, "Replace a value of the scenario: --set course.side_m=2 (repeatable)")
       ->allow_extra_args(false);
@@ -59,6 +73,7 @@ void add_run_command(CLI::App& app) {
   command->add_flag("--force", a->force, "Replace a finished result");
   command->add_option("-j,--jobs", a->jobs, "Runs driven at the same time; 0: one per core")
       ->check(CLI::Range(0, 1024));
+  add_example(command, "umbsim run umbmark --set course.side_m=2");
   command->callback([a] { run(*a); });
 }
 

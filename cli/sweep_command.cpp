@@ -1,11 +1,14 @@
-#include <memory>
-
 #include <fmt/format.h>
+
+#include <memory>
 
 #include "batch/store_export.h"
 #include "cli/commands.h"
 #include "cli/exit.h"
+#include "cli/help.h"
+#include "cli/shipped.h"
 #include "core/text_file.h"
+#include "core/wrapped_text.h"
 #include "experiment/run_folder.h"
 #include "experiment/run_sweep.h"
 #include "experiment/sweep_result.h"
@@ -38,8 +41,8 @@ struct ExportArguments {
 
 Sweep read(const SweepArguments& a) {
   if (a.sweep.empty())
-    throw InputError("sweep: a sweep file is missing, as in `umbsim sweep scenarios/sweeps/recovery.yaml`");
-  return read_sweep(a.sweep, a.settings, a.axes);
+    throw InputError("sweep: a sweep file is missing, as in `umbsim sweep friction`");
+  return read_sweep(shipped_path(ShippedKind::sweep, a.sweep, {"merge", "export"}), a.settings, a.axes);
 }
 
 fs::path folder_of(const SweepArguments& a, const Sweep& sweep) {
@@ -56,7 +59,7 @@ void print_failed(const SweepResult& result) {
   constexpr std::size_t kMost = 20;
   for (std::size_t i = 0; i < std::min(kMost, result.failed.size()); ++i) {
     const FailedPoint& f = result.failed[i];
-    fmt::print("  point {}, {}: {}\n", f.number, f.label, f.error);
+    fmt::print("{}", wrapped(fmt::format("  point {}, {}: {}", f.number, f.label, f.error), 4));
   }
   if (result.failed.size() > kMost) fmt::print("  and {} more, see sweep.json\n", result.failed.size() - kMost);
 }
@@ -67,7 +70,8 @@ void conclude(const Sweep& sweep, const SweepArguments& a, const fs::path& folde
   const SweepResult result = measure_sweep(sweep, store);
   write_results(sweep, store, result, folder);
   if (!a.junit.empty()) replace_text_file(a.junit, junit_xml(sweep.name, result.checks, result.failed));
-  fmt::print("{}: {} of {} points driven, {} failed\n", sweep.name, result.done, sweep.points, result.failed.size());
+  fmt::print("{}", wrapped(fmt::format("{}: {} of {} points driven, {} failed", sweep.name, result.done, sweep.points,
+                                       result.failed.size())));
   print_failed(result);
   fmt::print("{}Result in {}: open {}/report.html\n", checks_text(result.checks), folder.string(), folder.string());
   if (result.missing > 0) {
@@ -118,7 +122,7 @@ void export_sweep(const ExportArguments& a) {
 }
 
 void add_common_options(CLI::App* command, const std::shared_ptr<SweepArguments>& a) {
-  command->add_option("sweep", a->sweep, "Sweep file (YAML)");
+  command->add_option("sweep", a->sweep, "Sweep: a file (YAML) or a shipped one's name");
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<sweep name>");
   command->add_option("--set", a->settings, "Replace a value of the scenario at every point (repeatable)")
       ->allow_extra_args(false);
@@ -133,6 +137,7 @@ void add_merge(CLI::App* sweep) {
   const auto a = std::make_shared<SweepArguments>();
   CLI::App* command = sweep->add_subcommand("merge", "Join the shards of a sweep, check and report");
   add_common_options(command, a);
+  add_example(command, "umbsim sweep merge friction");
   command->callback([a] { merge(*a); });
 }
 
@@ -149,6 +154,7 @@ void add_export(CLI::App* sweep) {
       ->allow_extra_args(false);
   command->add_option("--where", a->where, "Only points that fulfil it: 'course.side_m >= 2' (repeatable)")
       ->allow_extra_args(false);
+  add_example(command, "umbsim sweep export results/friction --where 'floor.friction >= 0.4'");
   command->callback([a] { export_sweep(*a); });
 }
 
@@ -166,6 +172,7 @@ void add_sweep_command(CLI::App& app) {
   command->require_subcommand(0, 1);
   add_merge(command);
   add_export(command);
+  add_example(command, "umbsim sweep friction");
   command->callback([a, command] {
     if (command->get_subcommands().empty()) sweep_all(*a);
   });

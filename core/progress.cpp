@@ -1,10 +1,11 @@
 #include "core/progress.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
-
-#include <fmt/format.h>
 
 namespace umbsim {
 namespace {
@@ -34,7 +35,7 @@ void Progress::step() {
 void Progress::draw(double elapsed_s) {
   drawn_ = true;
   const int filled = total_ > 0 ? kBar * done_ / total_ : kBar;
-  const double left_s = elapsed_s / done_ * (total_ - done_);
+  const double left_s = std::max(done_ < total_ ? 1.0 : 0.0, std::ceil(elapsed_s / done_ * (total_ - done_)));
   fmt::print(stderr, "\r\033[K{} [{}{}] {}/{}, {:.0f} s left", what_, std::string(std::size_t(filled), '#'),
              std::string(std::size_t(kBar - filled), '.'), done_, total_, left_s);
   std::fflush(stderr);

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 
+#include "core/choices.h"
 #include "core/text_file.h"
 #include "core/yaml_check.h"
 
@@ -44,21 +44,6 @@ bool is_non_finite_word(std::string_view text) {
   for (const char c : text) word += char(std::tolower(static_cast<unsigned char>(c)));
   if (!word.empty() && (word[0] == '+' || word[0] == '-')) word.erase(0, 1);
   return word == ".inf" || word == ".nan" || word == "inf" || word == "infinity" || word == "nan";
-}
-
-int edit_distance(const std::string& a, const std::string& b) {
-  std::vector<int> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    int diagonal = row[0];
-    row[0] = int(i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const int substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-    }
-  }
-  return row.back();
 }
 
 std::string join_path(const std::string& parent, const std::string& key) {
@@ -217,14 +202,11 @@ void YamlMap::finish() const {
 
 std::string list_choices(const std::string& wrong, const std::vector<std::string>& choices) {
   if (choices.empty()) return "nothing is accepted here";
-  std::string nearest;
-  int best = std::max(2, int(wrong.size()) / 2) + 1;
-  for (const std::string& choice : choices) {
-    const int distance = edit_distance(wrong, choice);
-    if (distance < best) best = distance, nearest = choice;
-  }
-  const std::string hint = nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest);
-  return fmt::format("{}one of: {}", hint, fmt::join(choices, ", "));
+  const std::string hint = did_you_mean(wrong, choices);
+  constexpr std::size_t kLongList = 40, kFew = 5;
+  if (choices.size() <= kLongList) return fmt::format("{}one of: {}", hint, fmt::join(choices, ", "));
+  return fmt::format("{}one of {} names; the nearest are: {}", hint, choices.size(),
+                     fmt::join(nearest_few(wrong, choices, kFew), ", "));
 }
 
 }  // namespace umbsim

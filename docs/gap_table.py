@@ -27,6 +27,25 @@ def parameter_errors(truth, found):
     return errors
 
 
+def intervals(truth, found):
+    """How many 95 % intervals hold what was injected, of how many, and those that do not, in words."""
+    held, missed = 0, []
+    for effect, values in truth.items():
+        for name, value in values.items():
+            estimate = found.get(effect, {}).get(name)
+            if not isinstance(estimate, dict) or "ci95" not in estimate:
+                continue
+            low, high = estimate["ci95"]
+            if name.endswith("direction_rad"):
+                turns = round((estimate["value"] - value) / (2 * math.pi))
+                value += 2 * math.pi * turns
+            if low <= value <= high:
+                held += 1
+            else:
+                missed.append(f"{name} {low:.3g} to {high:.3g} where {value:.3g} is true")
+    return held, missed
+
+
 def place_error(recordings, case, truth, diagnosis):
     """Distance of the place from a cable or from where the robot was pushed, metres."""
     place = diagnosis["where"].get("place_m")
@@ -48,7 +67,7 @@ def row(recordings, results, case, truth):
     return {
         "case": case, "truth": true_name, "first": name, "right": name == true_name,
         "probability": d["causes"][0]["probability"], "set": d["set"], "in_set": true_name in d["set"],
-        "errors": errors, "place": place, "closure": closure,
+        "errors": errors, "place": place, "closure": closure, "intervals": intervals(truth, first),
         "mm": (d["gap"]["before_mm"], d["closure"].get("after_mm"), d["gap"]["noise_floor_mm"]),
         "wall_s": d["cost"]["wall_s"],
     }
@@ -67,6 +86,15 @@ def cells(r):
     ]
 
 
+def missed_intervals(rows):
+    """What the intervals of right causes miss: they hold the noise, and not what engines differ by."""
+    right = [r for r in rows if r["right"] and r["truth"] != "none"]
+    held = sum(r["intervals"][0] for r in right)
+    missed = [f"case {r['case'][-2:]} {text}" for r in right for text in r["intervals"][1]]
+    return (f"Of {held + len(missed)} 95 % intervals of right causes {held} hold the truth. They hold noise and the "
+            f"nuisances, and not how far engines differ in what the effect itself does. The others: {'; '.join(missed)}.")
+
+
 def table(rows):
     heads = ["case", "injected", "first cause", "probability", "in the set", "parameter off by", "closure", "mm: before → after (floor)", "s"]
     lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
@@ -81,7 +109,7 @@ def table(rows):
         f"cases without an effect. Median parameter error {statistics.median(relative):.1f} % (largest {max(relative):.1f} %), "
         f"closure {100 * min(closures):.1f} % to {100 * max(closures):.1f} %, median time {statistics.median(r['wall_s'] for r in rows):.0f} s "
         f"(longest {max(r['wall_s'] for r in rows):.0f} s).")
-    lines += ["", *textwrap.wrap(summary, 120)]
+    lines += ["", *textwrap.wrap(summary, 120), "", *textwrap.wrap(missed_intervals(rows), 120)]
     return "\n".join(lines)
 
 

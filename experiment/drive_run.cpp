@@ -6,7 +6,9 @@
 #include "core/random.h"
 #include "experiment/cable_layer.h"
 #include "experiment/demanded.h"
+#include "experiment/recorder.h"
 #include "experiment/rolling_noise.h"
+#include "experiment/tip_over.h"
 
 namespace umbsim {
 namespace {
@@ -25,44 +27,6 @@ void scatter_motors(Rig& rig, double sd) {
   for (Motor& motor : rig.drivetrain.motor) motor.gain *= 1 + random.normal(0, sd);
 }
 
-// Writes down what an experimenter can: ticks, commands, and the absolute pose with its measurement error.
-class Recorder {
- public:
-  Recorder(const Scenario& scenario, const RunSpec& spec)
-      : truth_(scenario.truth), random_(scenario.seed, "absolute pose", std::uint64_t(spec.number)) {
-    run.id = spec.id;
-    run.direction = name(spec.direction);
-    run.has_commands = true;
-    if (scenario.runs.start_heading_rad != 0) run.start_heading_rad = scenario.runs.start_heading_rad;
-    if (spec.bumped && scenario.bumps.laid.count > 0) run.inner_wheel_bumps = scenario.bumps.laid.count;
-    if (spec.bumped) {
-      for (const Cable& cable : scenario.bumps.fixed) run.bumps.push_back({cable.x_m, cable.y_m, cable.height_m});
-    }
-    stride_ = std::max(1, int(std::lround(scenario.encoders.rate_hz / truth_.rate_hz)));
-  }
-
-  void encoders(double time_s, std::int64_t left, std::int64_t right, const WheelSpeeds& command) {
-    run.encoders.push_back({time_s, left, right, command.left_radps, command.right_radps});
-  }
-
-  /// Whether an absolute pose is due in this period, and was taken.
-  bool truth(int period, int last_period, double time_s, const Pose2& X_WB) {
-    const bool end = period == 0 || period == last_period;
-    if (!end && (truth_.kind == "endpoints" || period % stride_ != 0)) return false;
-    const double x = random_.normal(X_WB.x_m, truth_.position_sd_m);
-    const double y = random_.normal(X_WB.y_m, truth_.position_sd_m);
-    run.truth.push_back({time_s, {x, y, random_.normal(X_WB.theta_rad, truth_.heading_sd_rad)}});
-    return true;
-  }
-
-  RecordedRun run;
-
- private:
-  TruthChoice truth_;
-  RandomStream random_;
-  int stride_ = 1;
-};
-
 // Pushes during a leg as pushes during the run. Legs that the course does not have are never pushed.
 std::vector<Push> timed(const std::vector<LegPush>& pushes, const Plan& plan) {
   std::vector<Push> result;
@@ -74,6 +38,21 @@ std::vector<Push> timed(const std::vector<LegPush>& pushes, const Plan& plan) {
   }
   return result;
 }
+
+// Tells of each lap once.
+class Laps {
+ public:
+  explicit Laps(const RunOutput& output) : output_(output) {}
+  void done(int laps) {
+    for (; told_ < laps; ++told_) {
+      if (output_.lap_done) output_.lap_done();
+    }
+  }
+
+ private:
+  const RunOutput& output_;
+  int told_ = 0;
+};
 
 Encoder encoder(const Rig& rig, const EncoderFaults& faults, const char* stream) {
   return {rig.encoders, faults, RandomStream(rig.run.seed, stream, std::uint64_t(rig.run.number))};
@@ -105,10 +84,12 @@ double torque_limit(const Scenario& s, const RobotModel& robot) {
   return s.floor_friction * robot.total_mass_kg() * s.physics.gravity_mps2 * robot.wheels[0].radius_m;
 }
 
-DrivenRun drive_run(const Scenario& scenario, const RobotModel& nominal, const OdometryParameters& odometry,
-                    const RunSpec& spec) {
-  const Rig rig = rig_for(scenario, nominal, spec);
-  const Plan plan(demanded(scenario.course, rig.demand), spec.direction);
+namespace {
+
+constexpr int kLap = 8;  // segments: four legs, four turns
+
+DrivenRun drive_plan(const Scenario& scenario, const Rig& rig, const Plan& plan, const OdometryParameters& odometry,
+                     const RunSpec& spec, const RunOutput& output) {
   const DriveGeometry believed{odometry.left_radius_m, odometry.right_radius_m, odometry.wheelbase_m};
   const double period_s = 1 / scenario.encoders.rate_hz;
   const int driven = int(std::ceil(plan.duration_s() / period_s));
@@ -121,8 +102,9 @@ DrivenRun drive_run(const Scenario& scenario, const RobotModel& nominal, const O
   Encoder right_encoder = encoder(rig, rig.encoders.right, "right encoder");
   RollingNoise rolling(scenario.noise.wheel_noise_m_per_sqrt_m, rig);
   CableLayer cables(scenario, spec, plan);
-  TrackKeeper track(scenario, spec, plan);
-  Recorder recorder(scenario, spec);
+  TrackKeeper track(scenario, spec, plan, output.rows);
+  Recorder recorder(scenario, spec, odometry, periods, output);
+  Laps laps(output);
   WheelSpeeds command;
   int segment = 0;
   for (int period = 0;; ++period) {
@@ -131,17 +113,36 @@ DrivenRun drive_run(const Scenario& scenario, const RobotModel& nominal, const O
     const std::int64_t right = right_encoder.read(time_s, world.encoder_angle(1));
     reckoning.update(left, right);
     segment = plan.at(time_s, segment).segment;
+    laps.done(segment / kLap);
     track.fix_if_due(segment, world.pose(), reckoning);
     recorder.encoders(time_s, left, right, command);
-    if (recorder.truth(period, periods, time_s, world.pose())) track.note(world.pose(), reckoning);
+    if (recorder.truth_is_due(period)) recorder.truth(time_s, world.pose(), track.note(world.pose(), reckoning));
     if (period == periods) break;
-    cables.lay_if_due(reckoning.pose(), segment, world, rig, recorder.run);
+    cables.lay_if_due(reckoning.pose(), segment, world, rig, recorder.run());
     command = period < driven ? drive(plan, time_s, period_s, reckoning.pose(), believed, segment) : WheelSpeeds{};
     rolling.roughen(world, command, period_s);
     world.command(command.left_radps, command.right_radps);
     world.advance(period_s);
   }
-  return {std::move(recorder.run), std::move(track.track), world.cost(), cables.count()};
+  laps.done(scenario.course.laps);
+  DrivenRun result = recorder.finish();
+  result.track = std::move(track.track);
+  result.cost = world.cost();
+  result.cables = cables.count();
+  return result;
+}
+
+}  // namespace
+
+DrivenRun drive_run(const Scenario& scenario, const RobotModel& nominal, const OdometryParameters& odometry,
+                    const RunSpec& spec, const RunOutput& output) {
+  const Rig rig = rig_for(scenario, nominal, spec);
+  const Plan plan(demanded(scenario.course, rig.demand), spec.direction);
+  try {
+    return drive_plan(scenario, rig, plan, odometry, spec, output);
+  } catch (const TippedOver& e) {
+    throw RunError(tip_over_message(e.fall, scenario, rig, plan, spec));
+  }
 }
 
 }  // namespace umbsim

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <filesystem>
+#include <functional>
+#include <string>
+
 #include "experiment/pose_track.h"
+#include "experiment/run_digest.h"
 #include "experiment/scenario.h"
 #include "recording/recording.h"
 
@@ -24,9 +29,24 @@ struct CableCount {
       0;  ///< friction below tan psi: the wheel cannot climb them on its own traction, only be pushed over
 };
 
-/// What a run left behind, and what it cost.
+/// Where the rows of driven runs go: encoder counts, absolute poses, estimates. Some 4 kB a simulated second.
+struct Rows {
+  enum class To { memory, folder, nowhere };
+  To to = To::memory;
+  std::filesystem::path folder;  ///< of the recording that they belong to
+};
+
+/// What is to be made of a run while it is driven.
+struct RunOutput {
+  Rows rows;
+  std::size_t path_poses = 400;    ///< in the digest, about
+  std::function<void()> lap_done;  ///< called after every lap; what it throws ends the run
+};
+
+/// What a run left behind, and what it cost. Rows are in `run` and `track` if they go to memory.
 struct DrivenRun {
   RecordedRun run;
+  RunDigest digest;
   PoseTrack track;
   PhysicsCost cost;
   CableCount cables;
@@ -38,8 +58,8 @@ Rig rig_for(const Scenario& scenario, const RobotModel& nominal, const RunSpec& 
 /// Torque limit of each motor at the wheel: the scenario's, else the URDF's, else what the tyres can pass on.
 double torque_limit(const Scenario& scenario, const RobotModel& robot);
 
-/// Drives one run: the spine of the program. Throws RunError if the simulation fails.
+/// Drives one run: the spine of the program. Throws RunError if the simulation fails or the robot tips over.
 DrivenRun drive_run(const Scenario& scenario, const RobotModel& nominal, const OdometryParameters& odometry,
-                    const RunSpec& spec);
+                    const RunSpec& spec, const RunOutput& output = {});
 
 }  // namespace umbsim

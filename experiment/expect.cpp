@@ -1,12 +1,13 @@
 #include "experiment/expect.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
-#include <fmt/format.h>
-
+#include "core/wrapped_text.h"
 #include "experiment/figures.h"
 
 namespace umbsim {
@@ -129,15 +130,19 @@ std::string value_text(const Cell& value) {
 std::string check_text(const Check& c, std::size_t most) {
   const bool alone = c.outcomes.size() == 1;
   std::string text = fmt::format("  {:<8} {}", c.unmet == 0 ? "met" : "NOT MET", text_of_expectation(c.expectation));
-  if (alone) return text + fmt::format("  ({}: {})\n", c.outcomes[0].label, value_text(c.outcomes[0].value));
-  if (c.unmet == 0) {
-    return text + fmt::format("  ({} points, worst {})\n", c.outcomes.size(), value_text(worst(c).value));
+  constexpr std::size_t kIndent = 11;
+  if (alone) {
+    return wrapped(text + fmt::format("  ({}: {})", c.outcomes[0].label, value_text(c.outcomes[0].value)), kIndent);
   }
-  text += fmt::format("  ({} of {} points)\n", c.unmet, c.outcomes.size());
+  if (c.unmet == 0) {
+    return wrapped(text + fmt::format("  ({} points, worst {})", c.outcomes.size(), value_text(worst(c).value)),
+                   kIndent);
+  }
+  text = wrapped(text + fmt::format("  ({} of {} points)", c.unmet, c.outcomes.size()), kIndent);
   std::size_t listed = 0;
   for (const Outcome& o : c.outcomes) {
     if (o.met || listed++ >= most) continue;
-    text += fmt::format("           point {}, {}: {}\n", o.point, o.label, value_text(o.value));
+    text += wrapped(fmt::format("{:11}point {}, {}: {}", "", o.point, o.label, value_text(o.value)), kIndent + 2);
   }
   if (listed > most) text += fmt::format("           and {} more\n", listed - most);
   return text;

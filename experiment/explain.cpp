@@ -13,7 +13,7 @@ Contributions return_errors_with(const Scenario& scenario, const std::vector<Eff
   s.effects = effects;
   s.bumps = {};
   s.calibration.method = Calibrate::none;
-  const ExperimentResult r = run_experiment(s, jobs);
+  const ExperimentResult r = run_experiment(s, jobs, true, {Rows::To::nowhere, {}});
   Contributions result;
   for (const auto& [c, direction] : {std::pair{&r.cw, Direction::cw}, std::pair{&r.ccw, Direction::ccw}}) {
     if (!c->errors.empty()) result[direction] = {c->centroid_x_m, c->centroid_y_m, c->heading_rad};

@@ -47,10 +47,11 @@ ExperimentResult complete_result() {
     r.recording.runs.push_back(run);
     TrackSample sample{};
     sample.estimate.covariance.setIdentity();
-    r.tracks.push_back({{sample}, {}});
+    r.tracks.emplace_back();
+    r.tracks.back().end = sample;
   }
   r.odometry = {1, 1, 1, 1};
-  CalibrationPass pass{r.odometry, r.recording, r.tracks, *r.umbmark};
+  CalibrationPass pass{{r.recording, r.digests, r.tracks}, r.odometry, *r.umbmark};
   pass.umbmark.e_max_syst_m = 1;
   r.passes.push_back(std::move(pass));
   return r;

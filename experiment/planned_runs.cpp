@@ -32,15 +32,6 @@ Scenario scenario_of(Scenario s, const RobotModel& nominal, const Recording& pla
   return s;
 }
 
-// One tick of the encoder is `unit` ticks of the recording.
-void change_unit(std::vector<EncoderSample>& samples, double unit) {
-  if (unit == 1) return;
-  for (EncoderSample& sample : samples) {
-    sample.left_ticks = std::llround(double(sample.left_ticks) * unit);
-    sample.right_ticks = std::llround(double(sample.right_ticks) * unit);
-  }
-}
-
 int periods(double duration_s, double rate_hz) { return int(std::ceil(duration_s * rate_hz)); }
 
 // The recorder runs as long as the course should take: a robot that was faster stands still until then.
@@ -81,7 +72,6 @@ void drive_planned_run(const Scenario& s, const RobotModel& nominal, RecordedRun
   DrivenRun driven = drive_run(exact, nominal, odometry, spec);
   wait_for_the_end(driven.run, s, spec.direction);
   measure_poses(driven.run, s.truth, s.seed, number);
-  change_unit(driven.run.encoders, s.encoders.ticks_per_revolution / odometry.ticks_per_revolution);
   run.has_commands = driven.run.has_commands;
   run.encoders = std::move(driven.run.encoders);
   run.truth = std::move(driven.run.truth);

@@ -6,8 +6,9 @@
 
 namespace umbsim {
 
-TrackKeeper::TrackKeeper(const Scenario& scenario, const RunSpec& spec, const Plan& plan)
+TrackKeeper::TrackKeeper(const Scenario& scenario, const RunSpec& spec, const Plan& plan, const Rows& rows)
     : on_(scenario.uncertainty.any()),
+      in_memory_(rows.to == Rows::To::memory),
       X_SW_(inverse(Pose2{0, 0, scenario.runs.start_heading_rad})),
       random_(scenario.seed, "absolute fix", std::uint64_t(spec.number)) {
   for (const AbsoluteFix& fix : scenario.fixes) {
@@ -24,28 +25,33 @@ void TrackKeeper::fix_if_due(int segment, const Pose2& X_WB, UncertainReckoning&
     const double x_m = random_.normal(X_SB.x_m, noise.position_sd_m);
     const double y_m = random_.normal(X_SB.y_m, noise.position_sd_m);
     reckoning.fix({x_m, y_m, random_.normal(X_SB.theta_rad, noise.heading_sd_rad)}, noise);
-    track.fixes.push_back(track.samples.size());
+    track.fixes.push_back(noted_);
   }
 }
 
-void TrackKeeper::note(const Pose2& X_WB, const UncertainReckoning& reckoning) {
-  if (on_) track.samples.push_back({reckoning.estimate(), X_SW_ * X_WB});
+std::optional<UncertainPose> TrackKeeper::note(const Pose2& X_WB, const UncertainReckoning& reckoning) {
+  if (!on_) return std::nullopt;
+  const TrackSample now{reckoning.estimate(), X_SW_ * X_WB};
+  ++noted_;
+  track.end = now;
+  if (now.estimate.covariance(0, 0) != 0 || now.estimate.covariance(2, 2) != 0) {
+    ++track.moved;
+    track.moved_inside += inside_95(now.estimate, now.X_SB);
+  }
+  if (in_memory_) track.samples.push_back(now);
+  return now.estimate;
 }
 
 UncertaintyFigures uncertainty_figures(const std::vector<const PoseTrack*>& tracks) {
   UncertaintyFigures f;
   double ends = 0, way = 0, poses = 0;
   for (const PoseTrack* track : tracks) {
-    if (track->samples.empty()) continue;
+    if (!track->end) continue;
     ++f.runs;
-    const TrackSample& end = track->samples.back();
-    f.end_covariance += end.estimate.covariance;
-    ends += inside_95(end.estimate, end.X_SB);
-    for (const TrackSample& s : track->samples) {
-      if (s.estimate.covariance(0, 0) == 0 && s.estimate.covariance(2, 2) == 0) continue;  // it has not moved yet
-      ++poses;
-      way += inside_95(s.estimate, s.X_SB);
-    }
+    f.end_covariance += track->end->estimate.covariance;
+    ends += inside_95(track->end->estimate, track->end->X_SB);
+    poses += double(track->moved);
+    way += double(track->moved_inside);
   }
   if (f.runs == 0) return f;
   f.end_covariance /= f.runs;

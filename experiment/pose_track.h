@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/random.h"
@@ -9,6 +10,7 @@
 namespace umbsim {
 
 struct RunSpec;
+struct Rows;
 
 /// What the odometry believed of itself at one moment, and what was true. Both in the frame of the run's start.
 struct TrackSample {
@@ -18,18 +20,22 @@ struct TrackSample {
 
 /// The estimates of one run at the moments of its absolute poses; empty if the scenario has no `uncertainty`.
 struct PoseTrack {
-  std::vector<TrackSample> samples;
-  std::vector<std::size_t> fixes;  ///< the first sample after each absolute fix
+  std::vector<TrackSample> samples;  ///< if rows are kept in memory
+  std::vector<std::size_t> fixes;    ///< the first sample after each absolute fix
+  std::optional<TrackSample> end;    ///< the last sample
+  std::size_t moved = 0;             ///< samples since it began to move,
+  std::size_t moved_inside = 0;      ///< and those whose true position lies in its 95 % ellipse
 };
 
 /// Keeps the track of a run, and takes the scenario's absolute fixes: at the end of a leg, before the turn, the true
 /// pose is measured with the fix's errors.
 class TrackKeeper {
  public:
-  TrackKeeper(const Scenario& scenario, const RunSpec& spec, const Plan& plan);
+  TrackKeeper(const Scenario& scenario, const RunSpec& spec, const Plan& plan, const Rows& rows);
 
   void fix_if_due(int segment, const Pose2& X_WB, UncertainReckoning& reckoning);
-  void note(const Pose2& X_WB, const UncertainReckoning& reckoning);
+  /// The estimate, if the scenario has `uncertainty`.
+  std::optional<UncertainPose> note(const Pose2& X_WB, const UncertainReckoning& reckoning);
 
   PoseTrack track;
 
@@ -39,6 +45,8 @@ class TrackKeeper {
     FixNoise noise;
   };
   bool on_;
+  bool in_memory_;
+  std::size_t noted_ = 0;
   Pose2 X_SW_;
   std::vector<Fix> fixes_;
   std::size_t taken_ = 0;

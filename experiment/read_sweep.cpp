@@ -30,17 +30,27 @@ YamlValue read_base(Sweep& sweep, YamlMap& map, const std::vector<std::string>& 
       (given.is_absolute() ? given : fs::path(sweep.file).parent_path() / given).lexically_normal().string();
   if (!fs::is_regular_file(sweep.scenario_file))
     file.fail(fmt::format("'{}': there is no such file", sweep.scenario_file));
-  const YamlValue base = YamlValue::load(sweep.scenario_file);
-  if (const auto set = map.find("set")) {
-    try {
+  const auto set = map.find("set");
+  const auto document = [&](std::size_t count) {
+    const YamlValue base = YamlValue::load(sweep.scenario_file);
+    if (set) {
       for (const auto& [key, value] : YamlMap(*set).entries())
         apply_setting(base, key + "=" + read_axis_value(value).yaml);
-      read_scenario(base);
-    } catch (const InputError& e) {
-      set->fail(e.what());
     }
+    for (std::size_t i = 0; i < count; ++i) apply_setting(base, settings[i]);
+    return base;
+  };
+  try {
+    if (set) read_scenario(document(0));
+  } catch (const InputError& e) {
+    set->fail(e.what());
   }
-  for (const std::string& setting : settings) apply_setting(base, setting);
+  const YamlValue base = document(settings.size());
+  try {
+    read_scenario(base);
+  } catch (const InputError& e) {
+    blame_setting(e, settings, document);
+  }
   return base;
 }
 

@@ -7,6 +7,9 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "core/error.h"
 #include "effects/geometry.h"
 #include "experiment/demanded.h"
 #include "experiment/drive_run.h"
@@ -67,6 +70,17 @@ Pose2 start_of(const RecordedRun& run, const RecordedRobot& robot) {
   constexpr double kFarOff_rad = 0.02;
   if (std::abs(turned[turned.size() / 2] - start.theta_rad) > kFarOff_rad) start.theta_rad = turned[turned.size() / 2];
   return start;
+}
+
+// What `work` makes of a run. Robots that were recorded did not tip over.
+template <class Work>
+auto of_run(const RecordedRun& run, const Work& work) {
+  try {
+    return work();
+  } catch (const TippedOver& e) {
+    throw RunError(fmt::format("run {}: driven as it was recorded, {}. The recorded robot did not: look at the centre of "
+                               "mass, masses and casters in its URDF, and at loads in the scenario", run.id, e.what()));
+  }
 }
 
 std::vector<Push> timed(const std::vector<LegPush>& pushes, const std::vector<Stretch>& stretches) {
@@ -137,11 +151,13 @@ double Replay::coarse_step(const Rig& rig) const {
 
 std::vector<Pose2> Replay::poses(std::size_t index, const std::vector<Effect>& effects,
                                  double roughness_m_per_sqrt_m) const {
-  if (roughness_m_per_sqrt_m == 0) return at_truth(recording_.runs[index], driven(index, effects));
-  std::vector<Pose2> track = driven_over(index, effects, roughness_m_per_sqrt_m);
-  const std::vector<Pose2> mirrored = driven_over(index, effects, -roughness_m_per_sqrt_m);
-  for (std::size_t i = 0; i < track.size(); ++i) track[i] = between(track[i], mirrored[i], 0.5);
-  return at_truth(recording_.runs[index], track);
+  return of_run(recording_.runs[index], [&] {
+    if (roughness_m_per_sqrt_m == 0) return at_truth(recording_.runs[index], driven(index, effects));
+    std::vector<Pose2> track = driven_over(index, effects, roughness_m_per_sqrt_m);
+    const std::vector<Pose2> mirrored = driven_over(index, effects, -roughness_m_per_sqrt_m);
+    for (std::size_t i = 0; i < track.size(); ++i) track[i] = between(track[i], mirrored[i], 0.5);
+    return at_truth(recording_.runs[index], track);
+  });
 }
 
 double Replay::wheel_width_m() const {
@@ -227,11 +243,13 @@ std::vector<std::array<double, 2>> Replay::counts(std::size_t index, const std::
   World world(r.robot, r.drivetrain, r.floor, scenario_.physics, timed(r.pushes, stretches_[index]));
   world.place(start_[index]);
   std::vector<std::array<double, 2>> shaft{{world.encoder_angle(0), world.encoder_angle(1)}};
-  for (std::size_t i = 1; i < run.encoders.size(); ++i) {
-    world.command(run.encoders[i].left_command_radps, run.encoders[i].right_command_radps);
-    world.advance(run.encoders[i].time_s - run.encoders[i - 1].time_s);
-    shaft.push_back({world.encoder_angle(0), world.encoder_angle(1)});
-  }
+  of_run(run, [&] {
+    for (std::size_t i = 1; i < run.encoders.size(); ++i) {
+      world.command(run.encoders[i].left_command_radps, run.encoders[i].right_command_radps);
+      world.advance(run.encoders[i].time_s - run.encoders[i - 1].time_s);
+      shaft.push_back({world.encoder_angle(0), world.encoder_angle(1)});
+    }
+  });
   const double step = coarse_step(r);
   const double step_rad = step > 1 ? 2 * M_PI / recording_.robot.ticks_per_revolution * step : 0;
   return arrived(shaft, run.encoders, r.encoders, step_rad);
@@ -264,6 +282,7 @@ Scenario scenario_of(const Recording& recording, const std::string& directory) {
   s.file = (std::filesystem::path(directory) / "recording.yaml").string();
   s.name = "twin";
   if (!recording.robot.urdf.empty()) s.robot.urdf = recording.robot.urdf;
+  s.robot.joints = {recording.robot.left_joint, recording.robot.right_joint};
   s.encoders.ticks_per_revolution = recording.robot.ticks_per_revolution;
   s.encoders.rate_hz = recording.encoder_rate_hz;
   const RecordedPath& p = recording.path;

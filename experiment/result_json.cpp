@@ -149,6 +149,15 @@ Json estimate_json(const ErrorEstimate& e) {
           {"e_b", e.e_b},             {"left_factor", e.left_factor}, {"right_factor", e.right_factor}};
 }
 
+Json calibration_json(const Umbmark& u, std::optional<CalibrationMethod> applied) {
+  Json json{{"applied", applied ? name(*applied) : "none"}};
+  for (const CalibrationMethod form : {CalibrationMethod::endpoint, CalibrationMethod::heading}) {
+    json[name(form)] = estimate_json(estimate(u, form));
+    json[name(form)]["trust"] = when_to_trust(form);
+  }
+  return json;
+}
+
 Json umbmark_json(const Umbmark& u) {
   return {{"cw", cluster_json(u.cw)},
           {"ccw", cluster_json(u.ccw)},
@@ -178,11 +187,9 @@ Json summary_json(const ExperimentResult& r) {
                         {"ccw", cluster_json(e.ccw)}};
   }
   json["injected"] = {{"e_d", r.injected.e_d}, {"e_b", r.injected.e_b}};
-  if (r.umbmark) {
-    json["calibration"] = {{"endpoint", estimate_json(r.umbmark->endpoint)},
-                           {"heading", estimate_json(r.umbmark->heading)}};
-  }
+  if (r.umbmark) json["calibration"] = calibration_json(*r.umbmark, r.applied());
   if (!r.passes.empty()) json["recovery"] = recovery_json(r);
+  if (!r.warnings.empty()) json["warnings"] = r.warnings;
   json["cost"] = {{"simulated_s", r.cost.simulated_s},
                   {"wall_s", r.wall_s},
                   {"steps", r.cost.steps},

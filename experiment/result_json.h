@@ -11,6 +11,8 @@ using Json = nlohmann::ordered_json;
 
 Json umbmark_json(const Umbmark& umbmark);
 Json estimate_json(const ErrorEstimate& estimate);
+/// Both forms, when to trust which, and whose corrections went into the odometry (none if not given).
+Json calibration_json(const Umbmark& umbmark, std::optional<CalibrationMethod> applied);
 Json cluster_json(const Cluster& cluster);
 
 /// summary.json (format umbsim-result/1).

@@ -4,9 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
 #include "core/error.h"
 #include "core/text_file.h"
 #include "experiment/result_json.h"
+#include "recording/run_writer.h"
 
 namespace umbsim {
 namespace {
@@ -55,18 +58,39 @@ void prepare_output_folder(const fs::path& given, bool force) {
   fs::remove(probe, error);
 }
 
+namespace {
+
+// Folders that had to be made on the way to `folder`, the innermost first.
+std::vector<fs::path> missing_above(const fs::path& folder) {
+  std::vector<fs::path> missing;
+  std::error_code error;
+  for (fs::path at = folder.parent_path(); !fs::exists(at, error) && at.has_relative_path(); at = at.parent_path()) {
+    missing.push_back(at);
+  }
+  return missing;
+}
+
+}  // namespace
+
 void write_folder(const fs::path& given, bool force, const std::function<void(const fs::path&)>& fill) {
   const fs::path folder = without_slash(given);
   check_output_folder(folder, force);
   const fs::path absolute = fs::absolute(folder);
   const fs::path beside = absolute.parent_path() / fmt::format(".{}.{}.part", absolute.filename().string(), getpid());
   const fs::path old = absolute.parent_path() / fmt::format(".{}.{}.old", absolute.filename().string(), getpid());
+  const std::vector<fs::path> made = missing_above(absolute);
+  const auto leave_nothing = [&] {
+    std::error_code ignored;
+    fs::remove_all(beside, ignored);
+    for (const fs::path& folder_made : made) fs::remove(folder_made, ignored);  // only where it is empty
+  };
   std::error_code error;
   try {
     fs::create_directories(beside, error);
     if (error) fail(folder, error);
     fill(beside);
-    if (fs::exists(absolute)) fs::rename(absolute, old);
+    // Unasked only an empty folder is replaced, which rename does by itself, even if one was filled meanwhile.
+    if (force && fs::exists(absolute)) fs::rename(absolute, old);
     fs::rename(beside, absolute, error);
     if (error) {
       if (fs::exists(old)) fs::rename(old, absolute);
@@ -74,29 +98,25 @@ void write_folder(const fs::path& given, bool force, const std::function<void(co
     }
     fs::remove_all(old, error);
   } catch (const fs::filesystem_error& e) {
-    fs::remove_all(beside, error);
+    leave_nothing();
     fail(folder, e.code());
   } catch (...) {
-    fs::remove_all(beside, error);
+    leave_nothing();
     throw;
   }
 }
 
-void write_run_folder(const ExperimentResult& result, const std::string& page, const fs::path& folder, bool force) {
-  write_folder(folder, force, [&](const fs::path& into) {
-    write_recording(result.recording, into);
-    write_text_file(into / "scenario.resolved.yaml", resolved_yaml(result.scenario));
-    write_text_file(into / "provenance.json",
-                    provenance_json(result.scenario.file, result.scenario.seed).dump(2) + "\n");
-    write_text_file(into / "summary.json", summary_json(result).dump(2) + "\n");
-    write_text_file(into / "report.html", page);
-    if (result.passes.empty()) return;
-    const CalibrationPass& last = result.passes.back();
-    write_text_file(into / "calibration.yaml",
-                    calibration_yaml(last.odometry, "Calibrated odometry of scenario " + result.scenario.name));
-    fs::create_directory(into / "calibrated");
-    write_recording(last.recording, into / "calibrated");
-  });
+void complete_run_folder(const ExperimentResult& result, const std::string& page, const fs::path& into) {
+  write_recording_header(result.recording, into);
+  write_scenario(result.scenario, into / "scenario.resolved.yaml");
+  write_text_file(into / "provenance.json", provenance_json(result.scenario.file, result.scenario.seed).dump(2) + "\n");
+  write_text_file(into / "summary.json", summary_json(result).dump(2) + "\n");
+  write_text_file(into / "report.html", page);
+  if (result.passes.empty()) return;
+  const CalibrationPass& last = result.passes.back();
+  write_text_file(into / "calibration.yaml",
+                  calibration_yaml(last.odometry, "Calibrated odometry of scenario " + result.scenario.name));
+  write_recording_header(last.recording, into / "calibrated");
 }
 
 }  // namespace umbsim

@@ -19,10 +19,9 @@ void prepare_output_folder(const std::filesystem::path& folder, bool force);
 void write_folder(const std::filesystem::path& folder, bool force,
                   const std::function<void(const std::filesystem::path&)>& fill);
 
-/// The run folder of an experiment: a recording, scenario.resolved.yaml, provenance.json, summary.json,
-/// calibration.yaml where it calibrated (with the runs that prove it in `calibrated/`, a recording too), and `page` as
-/// report.html.
-void write_run_folder(const ExperimentResult& result, const std::string& page, const std::filesystem::path& folder,
-                      bool force);
+/// The run folder of an experiment whose rows stand there already: a recording, scenario.resolved.yaml, provenance.json,
+/// summary.json, calibration.yaml where it calibrated (with the runs that prove it in `calibrated/`, a recording too), and
+/// `page` as report.html.
+void complete_run_folder(const ExperimentResult& result, const std::string& page, const std::filesystem::path& folder);
 
 }  // namespace umbsim

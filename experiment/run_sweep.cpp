@@ -36,10 +36,11 @@ StoreStart this_start(const Shard& shard) {
           shard.whole() ? "" : fmt::format("{}/{}", shard.index + 1, shard.count)};
 }
 
-void add_runs(StoredPoint& point, const Recording& recording, const OdometryParameters& odometry, const char* stage) {
-  for (const RecordedRun& run : recording.runs) {
+void add_runs(StoredPoint& point, const DrivenRuns& driven, const char* stage) {
+  for (std::size_t i = 0; i < driven.digests.size(); ++i) {
+    const RecordedRun& run = driven.recording.runs[i];
     const bool bumped = !run.bumps.empty() || run.inner_wheel_bumps;
-    const ReturnError e = return_error(run, odometry);
+    const ReturnError& e = driven.digests[i].error;
     point.runs.push_back({run.id, run.direction, bumped ? "bumped" : stage, e.x_m, e.y_m, e.theta_rad});
   }
 }
@@ -54,10 +55,10 @@ StoredPoint drive_point(const Sweep& sweep, std::int64_t number) {
   const Scenario scenario = scenario_of(sweep, wanted);
   point.seed = std::int64_t(scenario.seed);
   try {
-    const ExperimentResult result = run_experiment(scenario, 0, false);
+    const ExperimentResult result = run_experiment(scenario, 0, false, {Rows::To::nowhere, {}});
     point.figures = figures_of(result);
-    add_runs(point, result.recording, result.odometry, "before");
-    if (!result.passes.empty()) add_runs(point, result.passes.back().recording, result.passes.back().odometry, "after");
+    add_runs(point, result, "before");
+    if (!result.passes.empty()) add_runs(point, result.passes.back(), "after");
   } catch (const RunError& e) {
     point.error = e.what();
   } catch (const InputError& e) {

@@ -211,9 +211,17 @@ const char* name(Calibrate method) {
 }
 
 Scenario read_scenario(const std::string& file, const std::vector<std::string>& settings) {
-  const YamlValue document = YamlValue::load(file);
-  for (const std::string& setting : settings) apply_setting(document, setting);
-  return read_scenario(document);
+  const auto document = [&](std::size_t count) {
+    const YamlValue loaded = YamlValue::load(file);
+    for (std::size_t i = 0; i < count; ++i) apply_setting(loaded, settings[i]);
+    return loaded;
+  };
+  const YamlValue whole = document(settings.size());
+  try {
+    return read_scenario(whole);
+  } catch (const InputError& e) {
+    blame_setting(e, settings, document);
+  }
 }
 
 Scenario read_scenario(const YamlValue& document) {

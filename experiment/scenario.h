@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -116,6 +117,11 @@ std::string resolved_yaml(const Scenario& scenario);
 
 /// The URDF that the scenario names, found beside the scenario or in the shipped robots/.
 std::string scenario_urdf(const Scenario& scenario);
+
+std::string scenario_urdf_text(const Scenario& scenario);
+
+/// Writes a scenario that runs wherever its folder is taken to: every value written out, the robot's URDF beside it.
+void write_scenario(Scenario scenario, const std::filesystem::path& file);
 
 /// The robot that the scenario names, found beside the scenario or in the shipped robots/.
 RobotModel load_scenario_robot(const Scenario& scenario);

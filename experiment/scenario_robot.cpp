@@ -1,19 +1,22 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/text_file.h"
+#include "experiment/robots.h"
 #include "experiment/scenario.h"
+#include "recording/names.h"
 
 namespace umbsim {
 namespace {
 
 namespace fs = std::filesystem;
 
+}  // namespace
+
 std::string robots_directory() {
   const char* chosen = std::getenv("UMBSIM_ROBOTS");
   return chosen ? chosen : UMBSIM_ROBOTS_DIR;
 }
-
-}  // namespace
 
 std::string scenario_urdf(const Scenario& s) {
   const fs::path given = s.robot.urdf;
@@ -21,6 +24,15 @@ std::string scenario_urdf(const Scenario& s) {
   const fs::path beside = fs::path(s.file).parent_path() / given;
   if (fs::exists(beside)) return beside;
   return fs::path(robots_directory()) / given;
+}
+
+std::string scenario_urdf_text(const Scenario& s) { return read_text_file(scenario_urdf(s), kMaxUrdfBytes); }
+
+void write_scenario(Scenario s, const fs::path& file) {
+  const std::string text = scenario_urdf_text(s);
+  s.robot.urdf = urdf_copy_name(s.robot.urdf);
+  write_text_file(file.parent_path() / s.robot.urdf, text);
+  write_text_file(file, resolved_yaml(s));
 }
 
 RobotModel load_scenario_robot(const Scenario& scenario) {

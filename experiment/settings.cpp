@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "experiment/scenario.h"
+
 namespace umbsim {
 namespace {
 
@@ -10,11 +12,23 @@ YAML::Node without_marks(const YAML::Node& node) {
   YAML::Node copy(node.Type());
   if (node.IsScalar()) copy = node.Scalar();
   for (const auto& entry : node) {
-    if (node.IsMap()) copy[entry.first.Scalar()] = without_marks(entry.second);
-    else copy.push_back(without_marks(entry));
+    if (node.IsMap())
+      copy[entry.first.Scalar()] = without_marks(entry.second);
+    else
+      copy.push_back(without_marks(entry));
   }
   copy.SetTag(node.Tag());
   return copy;
+}
+
+// What reading the document says, "" if nothing.
+std::string refusal(const YamlValue& document) {
+  try {
+    read_scenario(document);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
 }
 
 }  // namespace
@@ -39,6 +53,18 @@ void apply_setting(const YamlValue& document, const std::string& setting) {
   const std::string text = setting.substr(equals + 1);
   if (text.empty()) throw InputError("--set " + setting + ": a value is missing after the =");
   node = without_marks(YamlValue::parse(text, "--set " + setting).node());
+}
+
+void blame_setting(const InputError& error, const std::vector<std::string>& settings,
+                   const std::function<YamlValue(std::size_t)>& document) {
+  const std::string what = error.what();
+  std::size_t n = 0;
+  while (n <= settings.size() && refusal(document(n)) != what) ++n;
+  if (n == 0 || n > settings.size()) throw error;
+  // Of a value that was set the file is named, but no line of it.
+  const std::string file = document(0).file() + ": ";
+  const bool set = what.rfind(file, 0) == 0;
+  throw InputError("--set " + settings[n - 1] + ": " + (set ? what.substr(file.size()) : what));
 }
 
 }  // namespace umbsim

@@ -6,7 +6,6 @@
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
-#include "gap/check.h"
 #include "gap/nuisances.h"
 #include "recording/encoder_clock.h"
 
@@ -106,6 +105,21 @@ ClocksAligned with_clocks_aligned(Recording recording) {
   }
   result.recording = std::move(recording);
   return result;
+}
+
+Recording with_moments_between(Recording recording) {
+  if (recording.truth_kind != "endpoints") return recording;
+  constexpr double kStep_s = 0.1;
+  for (RecordedRun& run : recording.runs) {
+    if (run.truth.size() != 2) continue;
+    const TruthSample first = run.truth.front();
+    const TruthSample last = run.truth.back();
+    run.truth = {first};
+    for (double t = first.time_s + kStep_s; t < last.time_s - kStep_s / 2; t += kStep_s)
+      run.truth.push_back({t, first.X_WB});
+    run.truth.push_back(last);
+  }
+  return recording;
 }
 
 Recording followed_through(const Recording& given, std::vector<std::string>& limits) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
 #include "core/random.h"
 #include "gap/track_misfit.h"
@@ -29,6 +30,15 @@ double most_by_noise(const std::vector<std::vector<double>>& draws) {
   return sums[kDraws - 1 - kDraws / 20];
 }
 
+// With the numbers of fewer runs, or if the robot cannot be driven with these, with those of all.
+std::vector<Pose2> driven(const Model& model, std::size_t run, const std::vector<Effect>& effects, const Fit& fit) {
+  try {
+    return model.simulate_run(run, effects);
+  } catch (const std::runtime_error&) {
+    return model.simulate_run(run, fit.effects());
+  }
+}
+
 }  // namespace
 
 Closure held_out_closure(const Model& model, const Fit& fit) {
@@ -53,7 +63,7 @@ Closure held_out_closure(const Model& model, const Fit& fit) {
     const std::vector<Effect> effects = model.fitted_on(fit, rest);
     for (const std::size_t r : held) {
       const TrackMisfit plain = aligned_misfit(model, r, model.nominal().tracks[r]);
-      const TrackMisfit with = aligned_misfit(model, r, model.simulate_run(r, effects));
+      const TrackMisfit with = aligned_misfit(model, r, driven(model, r, effects, fit));
       before[r] = plain.mean_square_m2;
       after[r] = with.mean_square_m2;
       floor[r] = mean(noise[r]);
@@ -75,7 +85,9 @@ Closure held_out_closure(const Model& model, const Fit& fit) {
   double before_sum_m2 = 0;
   for (const double b : before) before_sum_m2 += b;
   // Within the noise there is no gap to close, nor one that a cause between commands and ticks could close.
-  closure.known = before_sum_m2 > most_by_noise(noise) && before != after;
+  const double most_noise_m2 = most_by_noise(noise);
+  closure.known = before_sum_m2 > most_noise_m2 && before != after;
+  closure.most_noise_mm = 1000 * std::sqrt(most_noise_m2 / double(runs));
   closure.fraction = closure.known ? fraction(model.all_runs()) : 0;
   RandomStream random(1, "closure");
   std::vector<double> resampled;

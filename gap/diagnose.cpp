@@ -12,6 +12,7 @@
 #include "gap/ranking.h"
 #include "gap/search.h"
 #include "gap/track_misfit.h"
+#include "gap/uneven_floor.h"
 #include "gap/where.h"
 
 namespace umbsim::gap {
@@ -138,16 +139,16 @@ std::vector<Effect> twin_effects(const Fit& fit) {
 
 Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, const Thresholds& t, const Say& say) {
   Diagnosis d;
-  say("signatures of the effects");
+  say("signatures of the effects", 0);
   const Screen screen(model, excluded);
   Found found = search(model, screen, t, say);
   const Fit none = found.fits.front();
   std::vector<Fit> fits = worth_their_cost(model, std::move(found.fits), t);
   d.causes = ranked(fits, t);
-  say("held-out runs");
+  say("held-out runs", 0);
   prefer_what_predicts(model, d.causes, t);
   prefer_what_rolls(d.causes);
-  say("what no effect explains");
+  say("what no effect explains", 0);
   const double generic_none = generic_gain(model, none) + counts_left(model, none);
   const double lack_none = lack_of_fit(model, none, t);
   const Cause& front = d.causes.front();
@@ -208,7 +209,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     d.causes.push_back(std::move(cause));
     std::stable_sort(d.causes.begin(), d.causes.end(),
                      [](const Cause& a, const Cause& b) { return a.score > b.score; });
-    if (d.unexplained) d.left_over = describe_left_over(model, best);
+    d.left_over = describe_left_over(model, best);
     const bool misleads = d.closure.known && d.closure.fraction < 0;
     if (misleads && !unknown) {
       d.limits.push_back("what was found foretells the other runs badly: the twin goes without it");
@@ -231,6 +232,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   if (d.causes.front().name == "unknown") {
     if (worth_knowing) add_what_explains(best, none, d);
     add_what_counts_show(model, none, t, d);
+    if (excluded.count("uneven_floor") == 0 && may_be_uneven_floor(model, none)) d.set.push_back("uneven_floor");
   }
   add_doubtful(found.doubtful, none, d);
   add_faint(found.p_values, t, d);
@@ -241,6 +243,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     d.stage = name(stage_of(best));
     d.pattern = pattern_of(best.families.front().effect);
     find_place(model, best, d);
+    if (d.has_place) d.place_wheel = wheel_at(model, d.place_m[0], d.place_m[1]);
   }
   d.simulated_s = model.simulated_s();
   return d;

@@ -76,6 +76,12 @@ struct SegmentScore {
   std::size_t last = 0;   ///< one past the part's last sample
 };
 
+/// Where the evidence against a fit sits, in words; empty where there is little of it.
+struct LeftOver {
+  std::string description;
+  std::string where;  ///< of more than half of it: "in the turns", "along the legs", "in run cw-3"
+};
+
 /// Held-out closure: every condition predicted with parameters fitted on the others.
 struct Closure {
   bool known = false;
@@ -83,7 +89,8 @@ struct Closure {
   double ci95[2] = {0, 0};  ///< bootstrap over runs
   double before_mm = 0;     ///< root mean square position error along the held-out runs
   double after_mm = 0;
-  double floor_mm = 0;    ///< of the run-to-run noise
+  double floor_mm = 0;       ///< of the run-to-run noise,
+  double most_noise_mm = 0;  ///< and what it exceeds once in twenty times
   double before_deg = 0;  ///< root mean square heading error at the ends
   double after_deg = 0;
 };
@@ -96,12 +103,13 @@ struct Diagnosis {
   std::vector<SegmentScore> segments;
   bool has_place = false;
   double place_m[2] = {0, 0};
+  std::string place_wheel;    ///< that passes there: left, right, or empty
   std::vector<Cause> causes;  ///< ranked
   std::vector<std::string> set;
   std::vector<std::vector<std::string>> indistinguishable;
   bool unexplained = false;
   double unexplained_p = 1;
-  std::string left_over;  ///< description, empty if nothing is left
+  LeftOver left_over;  ///< by the first cause
   Closure closure;
   bool twin_is_nominal = false;  ///< nothing found that would foretell other runs
   NoiseModel noise;              ///< as estimated from the runs
@@ -113,7 +121,8 @@ struct Diagnosis {
   double simulated_s = 0;
 };
 
-using Say = std::function<void(const std::string& stage)>;
+/// Told of every stage, and of the share of it that is done.
+using Say = std::function<void(const std::string& stage, double share)>;
 
 /// Diagnoses a recording. `excluded`: effects taken out of the catalogue. Throws InputError, RunError.
 Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, const Thresholds& thresholds,

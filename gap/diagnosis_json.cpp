@@ -99,6 +99,13 @@ std::vector<ParameterEstimate> parameter_estimates(const Cause& cause, double ov
   return estimates;
 }
 
+FoundParameter found(const ParameterEstimate& e) { return {e.parameter, e.value, e.ci95[0], e.ci95[1]}; }
+
+std::string shown_text(const ParameterEstimate& e) {
+  const EffectInfo& info = find_effect(e.effect);
+  return is_neutral(info, found(e)) ? "" : shown(info, found(e));
+}
+
 Json diagnosis_json(const Diagnosis& d) {
   Json json{{"format", "umbsim-diagnosis/1"}};
   json["gap"] = {{"detected", d.detected},
@@ -126,7 +133,9 @@ Json diagnosis_json(const Diagnosis& d) {
     } else {
       for (const Family& f : c.fit.families) effects[f.effect] = Json::object();
       for (const ParameterEstimate& e : parameter_estimates(c, d.overdispersion)) {
-        effects[e.effect][e.parameter] = {{"value", e.value}, {"ci95", {e.ci95[0], e.ci95[1]}}, {"unit", e.unit}};
+        Json& parameter = effects[e.effect][e.parameter];
+        parameter = {{"value", e.value}, {"ci95", {e.ci95[0], e.ci95[1]}}, {"unit", e.unit}};
+        if (const std::string text = shown_text(e); !text.empty()) parameter["text"] = text;
       }
       for (const Effect& e : c.fit.effects()) {
         if (e.info->one_run && effects.contains(e.info->name)) effects[e.info->name]["run"] = e.values.run;
@@ -141,7 +150,9 @@ Json diagnosis_json(const Diagnosis& d) {
   json["causes"] = causes;
   json["set"] = d.set;
   json["indistinguishable"] = d.indistinguishable;
-  json["unexplained"] = {{"detected", d.unexplained}, {"p_value", d.unexplained_p}, {"description", d.left_over}};
+  json["unexplained"] = {{"detected", d.unexplained},
+                         {"p_value", d.unexplained_p},
+                         {"description", d.unexplained ? d.left_over.description : ""}};
   if (d.closure.known) {
     const Closure& c = d.closure;
     json["closure"] = {{"held_out_fraction", number(c.fraction)}, {"ci95", {number(c.ci95[0]), number(c.ci95[1])}},

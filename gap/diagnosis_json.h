@@ -2,11 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "effects/words.h"
 #include "gap/diagnose.h"
 
 namespace umbsim::gap {
 
-/// diagnosis.json (format umbsim-diagnosis/1). `cost` and `next_experiment` are added by the caller.
+/// diagnosis.json (format umbsim-diagnosis/1). `verdict`, `cost` and `next_experiment` are added by the caller.
 nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis);
 
 /// Value and 95 % interval of every fitted number of a cause, in the catalogue's parameters.
@@ -22,5 +23,10 @@ std::vector<ParameterEstimate> parameter_estimates(const Fit& fit, double overdi
 /// The same of a cause: the values of its fit, with intervals that hold those of its variants, too. A number that the
 /// fit keeps neutral and a variant sets free is listed with its neutral value.
 std::vector<ParameterEstimate> parameter_estimates(const Cause& cause, double overdispersion);
+
+FoundParameter found(const ParameterEstimate& estimate);
+
+/// What a reader sees of it, on the terminal and on the page; empty where it stayed neutral.
+std::string shown_text(const ParameterEstimate& estimate);
 
 }  // namespace umbsim::gap

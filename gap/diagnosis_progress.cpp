@@ -6,59 +6,51 @@ namespace umbsim::gap {
 namespace {
 
 constexpr double kBetweenDraws_s = 0.2;
-constexpr double kEnoughToTell = 20;  // simulations, before their speed is known
-
-/// Simulations of each run that a stage usually begins with still to come, from the recordings of docs/gap.md: an
-/// effect that is found takes about 260, of which a stage that does not come does not count.
-struct Usual {
-  const char* stage;
-  double left_per_run;
-};
-constexpr Usual kUsual[] = {{"noise and nuisances", 260},
-                            {"signatures of the effects", 250},
-                            {"fitting single effects", 200},
-                            {"fitting pairs of effects", 90},
-                            {"fitting combinations of three", 50},
-                            {"held-out runs", 8},
-                            {"what no effect explains", 4},
-                            {"what could be another effect", 2}};
-
-double usually_left(const std::string& stage) {
-  for (const Usual& u : kUsual) {
-    if (stage == u.stage) return u.left_per_run;
-  }
-  return 0;
-}
 
 }  // namespace
 
-DiagnosisProgress::DiagnosisProgress(std::size_t runs, Show show)
-    : runs_(runs), show_(std::move(show)), start_(std::chrono::steady_clock::now()) {}
+DiagnosisProgress::DiagnosisProgress(std::size_t runs, std::vector<UsualStage> usual, Show show)
+    : runs_(double(runs)),
+      show_(std::move(show)),
+      start_(std::chrono::steady_clock::now()),
+      stage_(usual.empty() ? "" : usual.front().name),
+      estimate_(std::move(usual)) {}
 
-double DiagnosisProgress::expected_left() const {
-  return std::max(0.0, usually_left(stage_) * double(runs_) - (done_ - done_before_stage_));
+double DiagnosisProgress::elapsed_s() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-void DiagnosisProgress::stage(const std::string& name) {
+void DiagnosisProgress::stage(const std::string& name, double share) {
   const std::lock_guard lock(mutex_);
+  const bool is_new = name != stage_;
+  if (is_new) simulated_ = 0;
   stage_ = name;
-  done_before_stage_ = done_;
-  drawn_s_ = -1;
-  draw();
+  estimate_.reached(name, share, elapsed_s());
+  draw(is_new);
+}
+
+void DiagnosisProgress::finish() {
+  const std::lock_guard lock(mutex_);
+  estimate_.finished();
+  draw(true);
 }
 
 void DiagnosisProgress::one_more() {
   const std::lock_guard lock(mutex_);
-  ++done_;
-  draw();
+  ++simulated_;
+  const UsualStage* usual = estimate_.current();
+  if (usual && usual->name == stage_ && usual->simulations_per_run > 0) {
+    estimate_.reached(stage_, simulated_ / (usual->simulations_per_run * runs_), elapsed_s());
+  }
+  draw(false);
 }
 
-void DiagnosisProgress::draw() {
-  const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  if (drawn_s_ >= 0 && elapsed_s < drawn_s_ + kBetweenDraws_s) return;
-  drawn_s_ = elapsed_s;
-  const bool known = done_ >= kEnoughToTell && usually_left(stage_) > 0;
-  show_(elapsed_s, stage_, known ? expected_left() * elapsed_s / done_ : -1);
+void DiagnosisProgress::draw(bool at_once) {
+  const double now_s = elapsed_s();
+  if (!at_once && now_s < drawn_s_ + kBetweenDraws_s) return;
+  drawn_s_ = now_s;
+  const double fraction = estimate_.fraction(now_s);
+  show_({stage_, now_s, fraction, fraction < 1 ? estimate_.left_s(now_s) : 0});
 }
 
 Simulator DiagnosisProgress::counted(Simulator simulator) {

@@ -4,39 +4,48 @@
 #include <functional>
 #include <mutex>
 #include <string>
+#include <vector>
 
+#include "gap/progress_estimate.h"
 #include "gap/simulator.h"
 
 namespace umbsim::gap {
 
-/// How far a diagnosis has come, by counting simulations against how many the stages usually take.
+/// What a line of progress shows.
+struct ProgressShown {
+  std::string stage;
+  double elapsed_s = 0;
+  double fraction = 0;  ///< of the whole work; never falls
+  double left_s = -1;   ///< negative: not known yet
+};
+
+/// How far a diagnosis or a plan has come, from its stages and by counting simulations. Safe to use from several
+/// threads.
 class DiagnosisProgress {
  public:
-  /// `show`: called with the seconds so far, the stage and the seconds left, at a new stage and a few times a second;
-  /// negative: not known yet. `runs`: of the recording.
-  using Show = std::function<void(double elapsed_s, const std::string& stage, double left_s)>;
-  DiagnosisProgress(std::size_t runs, Show show);
+  /// `show`: called at a new stage and a few times a second. `runs`: that are simulated.
+  using Show = std::function<void(const ProgressShown&)>;
+  DiagnosisProgress(std::size_t runs, std::vector<UsualStage> usual, Show show);
 
   /// The same simulator, counted. The progress must outlive it.
   Simulator counted(Simulator simulator);
 
-  void stage(const std::string& name);
-
-  /// Simulations still to come: `per_run` of each run, less those that the stage has done already.
-  double expected_left() const;
+  void stage(const std::string& name, double share);
+  void finish();
 
  private:
   void one_more();
-  void draw();
+  void draw(bool at_once);
+  double elapsed_s() const;
 
-  std::size_t runs_;
+  double runs_;
   Show show_;
   std::chrono::steady_clock::time_point start_;
-  double drawn_s_ = -1;
-  std::string stage_ = "noise and nuisances";
-  double done_ = 0;
-  double done_before_stage_ = 0;
-  mutable std::mutex mutex_;
+  double drawn_s_ = 0;
+  std::string stage_;
+  double simulated_ = 0;  // in this stage
+  ProgressEstimate estimate_;
+  std::mutex mutex_;
 };
 
 }  // namespace umbsim::gap

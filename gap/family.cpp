@@ -119,6 +119,14 @@ Family load() {
   return family;
 }
 
+// A caster that drags beside the middle also turns the robot, and it carries another share of the load there.
+Family drag_beside_middle(const char* side, double left_m) {
+  Family family = from_start(
+      direct("caster_drag", side, {positive("coefficient", 0.02, 0.04), signed_one("left_m", 0.01, 0.05)}), 0.03);
+  family.parameters[1].start = left_m;
+  return family;
+}
+
 // Both wheels off their centres, each by its own two components.
 Family both_eccentric() {
   const Family left = vector_family("wheel_eccentricity", "left_m", "left_phase_rad", 5e-4, 1e-3, 0.02);
@@ -161,7 +169,9 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution,
       logarithmic("over_acceleration", "factor", 1, 2, -3, 6),
       logarithmic("fast_turning", "factor", 1, 1.5, -3, 4),
       logarithmic("encoder_sampling", "interval_s", period_s, 1, 0, 4),
-      logarithmic("encoder_resolution", "ticks_per_revolution", ticks_per_revolution, 2, -7, 0),
+      // Down to one tick a revolution.
+      logarithmic("encoder_resolution", "ticks_per_revolution", ticks_per_revolution, 2,
+                  -std::log(ticks_per_revolution), 0),
       direct("wheel_radius_scale", "both", {signed_one("relative", 2e-4, 0.01)}),
       direct("wheel_radius_difference", "right over left", {signed_one("relative", 2e-4, 0.004)}),
       direct("wheelbase", "relative", {signed_one("relative", 5e-4, 0.015)}),
@@ -195,10 +205,15 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution,
       costing(kNarrowContact, squared("contact_patch", "width_m", 0.01, 0.03, wheel_width_m)),
       direct("tyre_creep", "along and across", {{"along", 0, 5e-3, 0.02, 0, 0.1}, {"across", 0, 5e-3, 0.02, 0, 0.1}}),
       from_start(direct("caster_swivel", "friction", {positive("friction_nm", 0.1, 0.5)}, {{"trail_m", 0.03}}), 0.3),
+      from_start(direct("caster_swivel", "friction of a light robot", {positive("friction_nm", 0.01, 0.05)},
+                        {{"trail_m", 0.03}}),
+                 0.03),
       from_start(direct("caster_swivel", "askew", {{"initial_angle_rad", 0, 0.3, 2, -3.14, 3.14}},
                         {{"trail_m", 0.03}, {"friction_nm", 0.1}}),
                  1.5),
       direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.04)}),
+      drag_beside_middle("left of it", 0.05),
+      drag_beside_middle("right of it", -0.05),
       from_start(direct("slippery_floor", "friction", {{"friction", 0, 2e-4, 0.2, 0.01, 0.8}}), 0.06),
       vector_family("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5),
       vector_family("carpet_drift", "metres_per_metre", "direction_rad", 1e-3, 0.008, 0.5),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 
 #include "gap/lost_by_chance.h"
 #include "gap/model.h"
@@ -93,7 +94,13 @@ std::vector<Effect> Model::fitted_on(const Fit& fit, const std::vector<std::size
   }
   if (fit.linear || !all_told) return other.effects();
   // Where the simulator bends the derivatives may point off the hill: the better of both starts.
-  const auto density = [&](const Eigen::VectorXd& p) { return density_at(fit.families, p, runs); };
+  const auto density = [&](const Eigen::VectorXd& p) {
+    try {
+      return density_at(fit.families, p, runs);
+    } catch (const std::runtime_error&) {
+      return -1e300;  // it cannot be driven so
+    }
+  };
   const bool astray = density(fit.p) > density(other.p);
   return this->fit(fit.families, astray ? fit.p : other.p, kRoundsAgain, runs).effects();
 }
@@ -182,7 +189,16 @@ Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start
     rounds += 1;
   const bool from_zero = !any([](const Family& f) { return !f.from_zero; });
   for (int round = 0; round < rounds; ++round) {
-    linearise(fit);
+    try {
+      linearise(fit);
+    } catch (const std::runtime_error&) {
+      // RunError or InputError: with these numbers the robot tips over, or does not even stand at its start. A step too
+      // far, if it could be driven before.
+      if (round == 0) throw;
+      best.linear = false;
+      fit.p = (fit.p + best.p) / 2;
+      continue;
+    }
     const Evidence e = evidence(fit.grams, runs, first_columns(nuisances() + m), sds, shifted(nuisances(), fit.p));
     // Density with the effects held at p: the honest objective of the descent.
     const Evidence held = evidence(fit.grams, runs, first_columns(nuisances()), nuisance_sds());

@@ -4,11 +4,13 @@
 #include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "gap/counts_noise.h"
+#include "gap/least_noise.h"
 #include "gap/noise_estimate.h"
 #include "gap/noise_floor.h"
 #include "recording/coarse_counts.h"
@@ -66,7 +68,9 @@ Model::Model(const Recording& recording, Simulator simulator, const Scatter& sca
   habits_sd_ = habits_sd(recording, measured_.counted, without_effects_.counted);
   scatter_.gain = gain_scatter(recording, measured_.counted, without_effects_.counted, scatter.gain);
   nominal_ = beside(recording, without_effects_.tracks);
-  NoiseEstimate estimate = known ? NoiseEstimate{*known, false, {}} : estimate_noise(nominal_);
+  const double reading_s = std::exp(measured_.habits[3]) / recording.encoder_rate_hz;
+  NoiseEstimate estimate =
+      known ? NoiseEstimate{*known, false, {}} : estimate_noise(nominal_, least_noise(nominal_, reading_s));
   noise_ = estimate.noise;
   noise_likelihood_ = std::move(estimate.log_likelihood);
   if (noise_likelihood_) noise_log_likelihood_ = noise_likelihood_(noise_);
@@ -203,7 +207,14 @@ std::vector<RunGram> Model::grams(const std::vector<Eigen::VectorXd>& residual,
 
 std::vector<Eigen::VectorXd> Model::left_over(const Fit& fit) const {
   std::vector<Eigen::VectorXd> left = residuals(fit.predicted);
-  for (std::size_t r = 0; r < left.size(); ++r) left[r] -= nuisances_.shared[r] * fit.nuisance;
+  for (std::size_t r = 0; r < left.size(); ++r) {
+    left[r] -= nuisances_.shared[r] * fit.nuisance;
+    // The run's own, most likely: ridge regression, with each column scaled by its prior.
+    const Eigen::MatrixXd own = nuisances_.own[r] * nuisances_.own_sd.asDiagonal();
+    Eigen::MatrixXd information = own.transpose() * own;
+    information.diagonal().array() += 1;
+    left[r] -= own * information.ldlt().solve(own.transpose() * left[r]);
+  }
   return left;
 }
 

@@ -114,7 +114,7 @@ class Model {
   std::vector<RunGram> grams(const std::vector<Eigen::VectorXd>& residual, const std::vector<Eigen::MatrixXd>& columns,
                              const std::vector<LocalColumns>& local = {}) const;
 
-  /// What a fit leaves of the whitened residual of each run, after the shared nuisances.
+  /// What a fit leaves of the whitened residual of each run, after the nuisances: those shared, and each run's own.
   std::vector<Eigen::VectorXd> left_over(const Fit& fit) const;
 
   /// No effect at all.

@@ -106,9 +106,6 @@ NoiseModel most_likely(NoiseModel best, const Likelihood& log_likelihood) {
       }
     }
   }
-  best.heading_rad2_pm = std::max(best.heading_rad2_pm, 1e-9);
-  best.along_m2_pm = std::max(best.along_m2_pm, 1e-10);
-  best.across_m2_pm = std::max(best.across_m2_pm, 1e-10);
   return best;
 }
 
@@ -157,9 +154,33 @@ NoiseModel from_what_is_left(const NominalReplay& n, NoiseModel noise) {
   return noise;
 }
 
+// Runs of one condition and direction, on the mean.
+double repeats(const NominalReplay& n) {
+  double conditions = 0;
+  for (std::size_t r = 0; r < n.runs(); ++r) {
+    bool first = true;
+    for (std::size_t before = 0; before < r; ++before) first = first && !n.same_condition(before, r);
+    conditions += first;
+  }
+  return double(n.runs()) / conditions;
+}
+
+// With what no recording shows. Of a single reading's error repeats share what they do not scatter by: so many of them
+// say no more of it than one.
+NoiseModel no_less_than(const NoiseModel& least, NoiseModel noise, double repeats) {
+  for (const auto walk : {&NoiseModel::heading_rad2_pm, &NoiseModel::along_m2_pm, &NoiseModel::across_m2_pm}) {
+    noise.*walk = std::max(noise.*walk, least.*walk);
+  }
+  for (const auto sd : {&NoiseModel::position_sd_m, &NoiseModel::heading_sd_rad, &NoiseModel::clock_s}) {
+    const double shared = std::pow(least.*sd, 2) - std::pow(noise.*sd, 2);
+    if (shared > 0) noise.*sd = std::sqrt(std::pow(noise.*sd, 2) + repeats * shared);
+  }
+  return noise;
+}
+
 }  // namespace
 
-NoiseEstimate estimate_noise(const NominalReplay& nominal) {
+NoiseEstimate estimate_noise(const NominalReplay& nominal, const NoiseModel& least) {
   const Recording& recording = *nominal.recording;
   const double tick_m = 2 * M_PI * recording.robot.wheel_radius_m / recording.robot.ticks_per_revolution;
   const double rounding_m = tick_m / std::sqrt(12.0);
@@ -174,9 +195,9 @@ NoiseEstimate estimate_noise(const NominalReplay& nominal) {
     const auto of_walks = [seldom = differences(nominal, kSeldom_s)](const NoiseModel& noise) {
       return replicate_log_likelihood(seldom, noise);
     };
-    return {most_likely(start, log_likelihood), true, of_walks};
+    return {no_less_than(least, most_likely(start, log_likelihood), repeats(nominal)), true, of_walks};
   }
-  return {recording.truth_kind == "track" ? from_what_is_left(nominal, start) : start, false, {}};
+  return {recording.truth_kind == "track" ? no_less_than(least, from_what_is_left(nominal, start), 1) : start, false, {}};
 }
 
 }  // namespace umbsim::gap

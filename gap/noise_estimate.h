@@ -17,7 +17,7 @@ struct NoiseEstimate {
 
 /// The noise of a recording by maximum likelihood, large innovations capped: from the differences of repeated runs,
 /// which no effect touches; where no two runs can be subtracted, from what radii, wheelbase, tracker's frame and clock
-/// leave.
-NoiseEstimate estimate_noise(const NominalReplay& nominal);
+/// leave. Nowhere below `least` (gap/least_noise.h), whatever repeats say.
+NoiseEstimate estimate_noise(const NominalReplay& nominal, const NoiseModel& least);
 
 }  // namespace umbsim::gap

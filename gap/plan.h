@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "gap/diagnose.h"
 #include "gap/plan_race.h"
 
 namespace umbsim::gap {
@@ -56,6 +57,8 @@ struct Plan {
 
 /// Predicts before any data what the first `given` runs of a model tell apart, and picks from the others. The poses of
 /// the model's recording do not matter; its noise does.
-Plan plan(const Model& model, std::size_t given, double radius_scatter, const PlanOptions& options);
+Plan plan(
+    const Model& model, std::size_t given, double radius_scatter, const PlanOptions& options,
+    const Say& say = [](const std::string&, double) {});
 
 }  // namespace umbsim::gap

@@ -22,7 +22,7 @@ struct PlanContext {
 nlohmann::ordered_json plan_json(const Plan& plan, const PlanContext& context, const PlanOptions& options,
                                  const NoiseModel& noise);
 
-/// The same for a reader at a terminal.
-std::string plan_text(const Plan& plan, const PlanContext& context, const PlanOptions& options);
+/// The same for a reader at a terminal. `matrix`: with all of what would be named for what.
+std::string plan_text(const Plan& plan, const PlanContext& context, const PlanOptions& options, bool matrix);
 
 }  // namespace umbsim::gap

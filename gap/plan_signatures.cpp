@@ -211,10 +211,12 @@ Eigen::VectorXd Signature::at_severity(const Eigen::VectorXd& direction, double 
 }
 
 Signatures::Signatures(const Model& model, const std::vector<PlannedFamily>& families,
-                       const std::vector<std::size_t>& counted, double severity, double radius_scatter)
+                       const std::vector<std::size_t>& counted, double severity, double radius_scatter,
+                       const std::function<void(double)>& done)
     : columns(model.recording().runs.size()) {
   const Workshop shop(model, counted, radius_scatter);
   for (const PlannedFamily& planned : families) {
+    if (done) done(double(all.size()) / double(families.size()));
     Signature s;
     s.planned = planned;
     s.first = int(columns.front().cols());

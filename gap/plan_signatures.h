@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "gap/plan_effects.h"
@@ -36,9 +37,10 @@ struct Signatures {
 
   /// An effect that bends the simulator, or cannot be negative, is simulated at the wanted severity and its secant
   /// taken; any other is simulated at its family's step. `counted`: runs that a severity is measured on. `severity` 0:
-  /// all at the families' own steps and starts, where the search has simulated them already.
+  /// all at the families' own steps and starts, where the search has simulated them already. `done`: told how far it
+  /// is.
   Signatures(const Model& model, const std::vector<PlannedFamily>& families, const std::vector<std::size_t>& counted,
-             double severity, double radius_scatter);
+             double severity, double radius_scatter, const std::function<void(double share)>& done = {});
 };
 
 }  // namespace umbsim::gap

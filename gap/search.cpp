@@ -13,7 +13,6 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr std::size_t kSinglesFitted = 8;
 constexpr double kContradicted = 25;  // five standard deviations, squared
 constexpr std::size_t kBases = 2;     // fits that further effects are tried on
 constexpr std::size_t kAdditionsFitted = 5;
@@ -25,13 +24,14 @@ constexpr int kSwaps = 2;
 constexpr double kTwins = 6;  // squared standard deviations between two fits' tracks, all readings
 constexpr double kRivals = 0.8;    // share of an effect's gain that the screen must see in another in its place
 constexpr double kHeld = 0.5;      // of what the screen saw of an effect beside a place, that its fit must hold
-constexpr double kShown = 50;      // log evidence of a demand in commands
 constexpr double kFarBehind = 20;  // log evidence
 constexpr double kHint = 0.02;     // of what explains all, below which nothing else is looked at,
 constexpr double kLocalHint = 0.25;    // and the same of places and moments, which take long
 constexpr double kWorthAClimb = 0.1;   // of what the best single effect explains, the same of the best start
 constexpr double kPartOfNeeded = 0.25; // of what a further effect must bring, the same of its best start
 constexpr double kDoubtful = 0.3;  // of what a further effect must bring
+constexpr double kScreening = 0.2;      // of the time of single effects
+constexpr double kAdding = 0.75;        // of a stage's time that further effects take; the rest are exchanges
 constexpr double kSuddenBeside = 0.05;  // of what is explained, that another engine leaves of kicks
 
 // Nothing is left but noise, as well as it is known, and nothing sudden, which a few readings show. `none`: the fit of no
@@ -45,26 +45,35 @@ bool explains_all(const Model& model, const Fit& fit, const Fit& none, const Thr
 // Forward from single effects, with a look back at what the first one should have been.
 class Search {
  public:
-  Search(const Model& model, const Screen& screen, const Thresholds& thresholds)
-      : model_(model), screen_(screen), thresholds_(thresholds), none_(model.none()), fits_{none_} {}
+  Search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say)
+      : model_(model), screen_(screen), thresholds_(thresholds), say_(say), none_(model.none()), fits_{none_} {}
 
-  Found run(const Say& say) {
-    say("fitting single effects");
+  Found run() {
+    begin("fitting single effects");
     fit_singles();
     std::vector<Fit> frontier(fits_.begin() + 1, fits_.end());
     for (int depth = 2; depth <= thresholds_.most_effects; ++depth) {
       const std::vector<Fit> from = bases(std::move(frontier));
       if (from.empty() || from.front().log_evidence < none_.log_evidence + thresholds_.detect) break;
-      say(depth == 2 ? "fitting pairs of effects" : "fitting combinations of three");
+      begin(depth == 2 ? "fitting pairs of effects" : "fitting combinations of three");
       frontier.clear();
-      for (const Fit& base : from) add_to(base, frontier);
+      for (std::size_t i = 0; i < from.size(); ++i) {
+        add_to(from[i], {kAdding * double(i) / double(from.size()), kAdding / double(from.size())}, frontier);
+      }
       if (frontier.empty()) break;
+      done(kAdding);
       swap(frontier);
     }
     return {std::move(fits_), std::move(doubtful_), std::move(p_values_)};
   }
 
  private:
+  void begin(const std::string& stage) {
+    stage_ = stage;
+    done(0);
+  }
+  void done(double share) const { say_(stage_, share); }
+
   static bool less_evidence(const Fit& a, const Fit& b) { return a.log_evidence < b.log_evidence; }
 
   std::optional<Fit> tried(const Fit& base, const Screen::Candidate& c, double least) {
@@ -119,18 +128,14 @@ class Search {
       const auto [of_effect, fresh] = p_values_.try_emplace(c.family.effect, c.p_value);
       if (!fresh) of_effect->second = std::min(of_effect->second, c.p_value);
     }
-    const double best_gain = singles.empty() ? 0 : singles.front().gain;
-    for (std::size_t i = 0; i < singles.size(); ++i) {
-      // Where the simulator bends, the screen is only a hint: such families are tried a little longer.
-      const double needed = singles[i].family.from_zero ? 2 : 1;
-      if (singles[i].gain < needed) continue;
-      // What commands show is tried however much more the tracks say of something else.
-      const bool shown = is_demand(singles[i].family.effect) && singles[i].gain > kShown;
-      if (i >= kSinglesFitted && singles[i].gain < best_gain - 15 && !shown) continue;
-      if (!singles[i].starts.empty() && idle(singles[i])) continue;
+    const std::vector<std::size_t> promising = worth_a_fit(singles);
+    for (std::size_t i = 0; i < promising.size(); ++i) {
+      done(kScreening + (1 - kScreening) * double(i) / double(promising.size()));
+      Screen::Candidate& c = singles[promising[i]];
+      if (!c.starts.empty() && idle(c)) continue;
       const double most = std::max_element(fits_.begin(), fits_.end(), less_evidence)->log_evidence;
       const double least = none_.log_evidence + kWorthAClimb * (most - none_.log_evidence);
-      if (auto fit = tried(none_, singles[i], least)) fits_.push_back(std::move(*fit));
+      if (auto fit = tried(none_, c, least)) fits_.push_back(std::move(*fit));
     }
   }
 
@@ -165,8 +170,14 @@ class Search {
     return from;
   }
 
+  /// From which share of a stage on, and how much of it.
+  struct Part {
+    double from;
+    double size;
+  };
+
   // Fits of `base` and one effect more that pay.
-  void add_to(const Fit& base, std::vector<Fit>& paying) {
+  void add_to(const Fit& base, Part part, std::vector<Fit>& paying) {
     const Needed needed = addition_needed(model_, base, none_, thresholds_);
     const double held = model_.density_at(base.families, base.p);
     std::size_t fitted = 0;
@@ -179,6 +190,7 @@ class Search {
       const double hint = counts ? std::min(needed.hint, 0.5 * needed.counts) : needed.hint;
       if (c.gain < (c.family.search_cost > 0 ? 0.5 * needed.local : hint)) continue;
       if (c.reach.size() > 1) ++climbed;
+      done(part.from + part.size * double(fitted) / double(kAdditionsFitted));
       auto fit = tried(base, c, held + kPartOfNeeded * needed.local);
       if (!fit) continue;
       ++fitted;
@@ -242,6 +254,8 @@ class Search {
   const Model& model_;
   const Screen& screen_;
   const Thresholds& thresholds_;
+  const Say& say_;
+  std::string stage_;
   const Fit none_;
   std::vector<Fit> fits_;
   std::vector<Fit> doubtful_;
@@ -251,7 +265,7 @@ class Search {
 }  // namespace
 
 Found search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say) {
-  return Search(model, screen, thresholds).run(say);
+  return Search(model, screen, thresholds, say).run();
 }
 
 }  // namespace umbsim::gap

@@ -45,6 +45,9 @@ class Screen {
   Eigen::VectorXd prior_sd_;
 };
 
+/// Those of single effects, best first, that are fitted in the simulator.
+std::vector<std::size_t> worth_a_fit(const std::vector<Screen::Candidate>& singles);
+
 /// What the search found, all fitted in the simulator.
 struct Found {
   std::vector<Fit> fits;      ///< of no effect, of single effects, and of the combinations that pay

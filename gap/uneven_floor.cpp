@@ -148,18 +148,31 @@ std::array<double, 2> rms_and_wavelength(const Covariance& c, double height_m, d
   return result;
 }
 
+std::vector<Passes> passes(const Model& model, const Fit& fit, bool smooth) {
+  std::vector<Passes> runs;
+  for (const std::size_t r : model.all_runs()) {
+    std::vector<Shifted> shifts = shifts_of(model, fit, r);
+    if (smooth) without_ripples(shifts);
+    runs.emplace_back(std::move(shifts));
+  }
+  return runs;
+}
+
 }  // namespace
+
+bool may_be_uneven_floor(const Model& model, const Fit& fit) {
+  if (model.recording().truth_kind != "track") return false;
+  const std::vector<Passes> smooth = passes(model, fit, true);
+  const Agreement alike = agreement(smooth, false, Part::whole);
+  const Agreement turned = agreement(smooth, true, Part::whole);
+  const bool never_turned = int(turned.blocks_m2.size()) < kLeastBlocks;
+  return never_turned && int(alike.blocks_m2.size()) >= kLeastBlocks && alike.sigmas() >= kLeastSigmas;
+}
 
 std::optional<UnevenFloorFound> find_uneven_floor(const Model& model, const Fit& fit) {
   if (model.recording().truth_kind != "track") return {};
-  std::vector<Passes> runs;
-  std::vector<Passes> smooth;
-  for (const std::size_t r : model.all_runs()) {
-    std::vector<Shifted> shifts = shifts_of(model, fit, r);
-    runs.emplace_back(shifts);
-    without_ripples(shifts);
-    smooth.emplace_back(std::move(shifts));
-  }
+  const std::vector<Passes> runs = passes(model, fit, false);
+  const std::vector<Passes> smooth = passes(model, fit, true);
   const double alike_m2 = agreement(smooth, false, Part::whole).mean_m2();
   // The way back has its caster where the way there had none, and pitches otherwise; what is across is the roll's.
   double sigmas = 0;

@@ -21,6 +21,10 @@ struct UnevenFloorFound {
 /// does, or where passes do not agree.
 std::optional<UnevenFloorFound> find_uneven_floor(const Model& model, const Fit& fit);
 
+/// Whether what a fit leaves shifts the robot alike whenever it passes the same place the same way, and no run passes it
+/// another way: then these runs cannot tell a floor from what else repeats.
+bool may_be_uneven_floor(const Model& model, const Fit& fit);
+
 /// The fit with an uneven floor of these numbers beside its effects. The floor's shape is not fitted: the prediction
 /// stays as it is.
 Fit on_uneven_floor(Fit fit, const UnevenFloorFound& floor);

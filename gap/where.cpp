@@ -107,10 +107,27 @@ std::string pattern_of(const std::string& effect) {
   return found == patterns.end() ? "" : found->second;
 }
 
-std::string describe_left_over(const Model& model, const Fit& fit) {
+namespace {
+
+std::string in_words(const std::string& part) {
+  if (part == "cruise") return "along the legs";
+  return part == "turn" ? "in the turns" : "at the legs' " + part + "s";
+}
+
+using Shares = std::map<std::string, double>;
+
+Shares::value_type most(const Shares& shares) {
+  return *std::max_element(shares.begin(), shares.end(),
+                           [](const auto& a, const auto& b) { return a.second < b.second; });
+}
+
+}  // namespace
+
+LeftOver describe_left_over(const Model& model, const Fit& fit) {
+  constexpr double kLittle = 5;  // log evidence
   const std::vector<SegmentScore> scores = segment_scores(model, fit);
-  std::map<std::string, double> by_part;
-  std::map<std::string, double> by_run;
+  Shares by_part;
+  Shares by_run;
   double total = 0;
   for (const SegmentScore& s : scores) {
     if (s.score <= 0) continue;
@@ -118,21 +135,35 @@ std::string describe_left_over(const Model& model, const Fit& fit) {
     by_run[s.run] += s.score;
     total += s.score;
   }
-  if (total < 5 || scores.empty()) return "";
-  const auto most = [](const std::map<std::string, double>& shares) {
-    return *std::max_element(shares.begin(), shares.end(),
-                             [](const auto& a, const auto& b) { return a.second < b.second; });
-  };
+  if (total < kLittle || scores.empty()) return {};
   const auto [part, part_score] = most(by_part);
   const auto [run, run_score] = most(by_run);
-  std::string text = fmt::format("{:.0f} % of what is left sits in the {}s", 100 * part_score / total, part);
-  if (part == "cruise") text = fmt::format("{:.0f} % of what is left sits along the legs", 100 * part_score / total);
-  if (part == "start" || part == "stop")
-    text = fmt::format("{:.0f} % of what is left sits at the legs' {}s", 100 * part_score / total, part);
-  if (run_score > 0.5 * total) text += fmt::format(", {:.0f} % in run {} alone", 100 * run_score / total, run);
+  const bool one_run = run_score > 0.5 * total && by_run.size() > 1;
+  LeftOver left{fmt::format("{:.0f} % of what is left sits {}", 100 * part_score / total, in_words(part)), ""};
+  if (part_score > 0.5 * total) left.where = in_words(part);
+  if (one_run) left.where += (left.where.empty() ? "in run " : " of run ") + run;
+  if (run_score > 0.5 * total)
+    left.description += fmt::format(", {:.0f} % in run {} alone", 100 * run_score / total, run);
   const SegmentScore& worst = scores.front();
-  return text + fmt::format("; most in run {}, leg {} ({}), near ({:.2f}, {:.2f}) m", worst.run, worst.leg, worst.part,
-                            worst.at_x_m, worst.at_y_m);
+  left.description += fmt::format("; most in run {}, leg {} ({}), near ({:.2f}, {:.2f}) m", worst.run, worst.leg,
+                                  worst.part, worst.at_x_m, worst.at_y_m);
+  return left;
+}
+
+std::string wheel_at(const Model& model, double x_m, double y_m) {
+  const double half_m = model.recording().robot.wheelbase_m / 2;
+  double nearest_m[] = {1e300, 1e300};
+  for (const RecordedRun& run : model.recording().runs) {
+    for (const TruthSample& s : run.truth) {
+      for (const int wheel : {0, 1}) {
+        const Pose2 at = s.X_WB * Pose2{0, wheel == 0 ? half_m : -half_m, 0};
+        nearest_m[wheel] = std::min(nearest_m[wheel], std::hypot(at.x_m - x_m, at.y_m - y_m));
+      }
+    }
+  }
+  const bool passes[] = {nearest_m[0] < half_m / 2, nearest_m[1] < half_m / 2};
+  if (passes[0] == passes[1]) return "";
+  return passes[0] ? "left" : "right";
 }
 
 }  // namespace umbsim::gap

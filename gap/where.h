@@ -15,7 +15,10 @@ std::vector<SegmentScore> segment_scores(const Model& model, const Fit& fit);
 /// one_run, runs, load, reversals, commands.
 std::string pattern_of(const std::string& effect);
 
-/// In words: where the evidence against a fit sits, and whether it goes with the turns, legs, direction or one run.
-std::string describe_left_over(const Model& model, const Fit& fit);
+/// Whether the evidence against a fit goes with the turns, the legs or one run.
+LeftOver describe_left_over(const Model& model, const Fit& fit);
+
+/// The wheel that passes a place of the floor, "left" or "right"; empty if both do, or neither.
+std::string wheel_at(const Model& model, double x_m, double y_m);
 
 }  // namespace umbsim::gap

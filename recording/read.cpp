@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "core/text_file.h"
 #include "core/yaml_reader.h"
 #include "recording/csv.h"
 #include "recording/names.h"
@@ -61,13 +62,29 @@ double robot_metres(YamlMap& map, const std::string& key) {
                          kWheel.text(), length / 1000));
 }
 
-RecordedRobot read_robot(const YamlValue& value) {
+/// The file of the recording that `value` names. Throws if it leaves the recording's folder.
+fs::path inner_file(const fs::path& directory, const YamlValue& value, const std::string& name) {
+  const std::string problem = link_problem(directory, name);
+  if (!problem.empty()) value.fail(fmt::format("'{}' {}", name, problem));
+  return directory / name;
+}
+
+void read_urdf(const fs::path& directory, const YamlValue& value, RecordedRobot& robot) {
+  robot.urdf = checked(value, file_name_problem);
+  const fs::path file = inner_file(directory, value, robot.urdf);
+  std::error_code ignored;
+  if (fs::exists(file, ignored)) robot.urdf_text = read_text_file(file, kMaxUrdfBytes);
+}
+
+RecordedRobot read_robot(const fs::path& directory, const YamlValue& value) {
   YamlMap map(value);
   RecordedRobot robot;
-  if (const auto urdf = map.find("urdf")) robot.urdf = checked(*urdf, file_name_problem);
+  if (const auto urdf = map.find("urdf")) read_urdf(directory, *urdf, robot);
   robot.wheel_radius_m = robot_metres(map, "wheel_radius_m");
   robot.wheelbase_m = robot_metres(map, "wheelbase_m");
   robot.ticks_per_revolution = map.number("ticks_per_revolution", kTicks);
+  robot.left_joint = map.string("left_joint", "");
+  robot.right_joint = map.string("right_joint", "");
   map.finish();
   return robot;
 }
@@ -182,9 +199,10 @@ class RunReader {
  private:
   fs::path file(const YamlValue& value) {
     const std::string name = checked(value, inner_path_problem);
-    const auto [used, is_new] = users_.emplace(fs::path(name).lexically_normal(), value.path());
+    const fs::path file = inner_file(directory_, value, name);
+    const auto [used, is_new] = users_.emplace(fs::weakly_canonical(file), value.path());
     if (!is_new) value.fail(fmt::format("'{}' is the file of {} already", name, used->second));
-    return directory_ / name;
+    return file;
   }
 
   fs::path directory_;
@@ -200,12 +218,15 @@ Recording read_recording(const fs::path& directory) {
   if (!fs::is_directory(directory, ignored)) {
     throw InputError(SourceMark{directory.string()}, "is not a recording (a folder with recording.yaml)");
   }
-  YamlMap top(YamlValue::load((directory / "recording.yaml").string()));
+  const fs::path file = directory / "recording.yaml";
+  const std::string problem = link_problem(directory, file.filename().string());
+  if (!problem.empty()) throw InputError(SourceMark{file.string()}, problem);
+  YamlMap top(YamlValue::load(file.string()));
   check_format(top);
   Recording recording;
   recording.title = top.at("title").string();
   recording.source = top.string("source", "");
-  recording.robot = read_robot(top.at("robot"));
+  recording.robot = read_robot(directory, top.at("robot"));
   recording.path = read_path(top.at("path"));
   YamlMap encoders(top.at("encoders"));
   recording.encoder_rate_hz = encoders.number("rate_hz", kRate);

@@ -35,10 +35,13 @@ struct RecordedBump {
 
 /// What the experimenter believes of the robot, not what is true.
 struct RecordedRobot {
-  std::string urdf;  ///< name of a file in robots/ or beside recording.yaml, without folders; empty if not given
+  std::string urdf;  ///< name of a file beside recording.yaml or in robots/, without folders; empty if not given
   double wheel_radius_m = 0;
   double wheelbase_m = 0;
   double ticks_per_revolution = 0;
+  std::string urdf_text{};    ///< content of that file; empty if it does not lie beside recording.yaml
+  std::string left_joint{};   ///< which wheels drive, where the URDF alone does not tell; else empty
+  std::string right_joint{};
 };
 
 struct RecordedPath {
@@ -87,8 +90,8 @@ struct Recording {
 /// duplicate keys, truncated rows, times that do not increase, non-finite numbers, no motion data.
 Recording read_recording(const std::filesystem::path& directory);
 
-/// Writes recording.yaml and runs/<id>/{encoders,truth}.csv into an existing directory. The text is the same for
-/// the same values on every run. Throws RunError if a file cannot be written completely.
+/// Writes recording.yaml, the robot's URDF where its text is known, and runs/<id>/{encoders,truth}.csv into an existing
+/// directory. The text is the same for the same values on every run. Throws RunError if a file cannot be written completely.
 void write_recording(const Recording& recording, const std::filesystem::path& directory);
 
 }  // namespace umbsim

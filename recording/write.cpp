@@ -1,14 +1,12 @@
-#include <fmt/compile.h>
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include <cmath>
 #include <set>
 
 #include "core/error.h"
 #include "core/text_file.h"
 #include "recording/names.h"
-#include "recording/recording.h"
+#include "recording/run_writer.h"
 #include "recording/yaml_text.h"
 
 namespace umbsim {
@@ -17,61 +15,22 @@ namespace {
 namespace fs = std::filesystem;
 using Text = fmt::memory_buffer;
 
-/// `value` to the nearest 1e-9 (of metre, radian, second), below any sensor; so 0.1 + 0.2 is written as 0.3.
-double rounded(double value) {
-  constexpr double kDecimals = 1e9;
-  constexpr double kLargest = 9e6;  // above, 1e-9 is finer than a double
-  if (std::abs(value) > kLargest) return value;
-  return std::round(value * kDecimals) / kDecimals + 0.0;  // + 0.0 turns -0 into 0
-}
-
-void check_finite(bool finite, const RecordedRun& run, const char* file, double time_s) {
-  if (!finite) throw RunError(fmt::format("run '{}': {} has a non-finite value at {} s", run.id, file, time_s));
-}
-
-Text encoders_text(const RecordedRun& run) {
-  Text text;
-  text.append(std::string_view("time_s,left_ticks,right_ticks"));
-  if (run.has_commands) text.append(std::string_view(",left_command_radps,right_command_radps"));
-  text.push_back('\n');
-  const fmt::appender out(text);
-  for (const EncoderSample& row : run.encoders) {
-    const double left = row.left_command_radps, right = row.right_command_radps;
-    check_finite(std::isfinite(row.time_s) && std::isfinite(left) && std::isfinite(right), run, "encoders.csv",
-                 row.time_s);
-    fmt::format_to(out, FMT_COMPILE("{},{},{}"), rounded(row.time_s), row.left_ticks, row.right_ticks);
-    if (run.has_commands) fmt::format_to(out, FMT_COMPILE(",{},{}"), rounded(left), rounded(right));
-    text.push_back('\n');
-  }
-  return text;
-}
-
-Text truth_text(const RecordedRun& run) {
-  Text text;
-  text.append(std::string_view("time_s,x_m,y_m,theta_rad\n"));
-  for (const TruthSample& row : run.truth) {
-    const Pose2& X_WB = row.X_WB;
-    check_finite(std::isfinite(row.time_s) && std::isfinite(X_WB.x_m) && std::isfinite(X_WB.y_m) &&
-                     std::isfinite(X_WB.theta_rad),
-                 run, "truth.csv", row.time_s);
-    fmt::format_to(fmt::appender(text), FMT_COMPILE("{},{},{},{}\n"), rounded(row.time_s), rounded(X_WB.x_m),
-                   rounded(X_WB.y_m), rounded(X_WB.theta_rad));
-  }
-  return text;
-}
-
 void append(Text& text, std::string_view piece) { text.append(piece); }
 
 void append_number(Text& text, std::string_view before, const char* key, std::optional<double> value) {
   if (value) fmt::format_to(fmt::appender(text), "{}{}: {}", before, key, yaml_number(*value, key));
 }
 
+std::string urdf_name(const RecordedRobot& robot) { return fs::path(robot.urdf).filename().string(); }
+
 void append_robot(Text& text, const RecordedRobot& robot) {
   append(text, "\nrobot:");
-  if (!robot.urdf.empty()) append(text, "\n  urdf: " + yaml_string(fs::path(robot.urdf).filename().string()));
+  if (!robot.urdf.empty()) append(text, "\n  urdf: " + yaml_string(urdf_name(robot)));
   append_number(text, "\n  ", "wheel_radius_m", robot.wheel_radius_m);
   append_number(text, "\n  ", "wheelbase_m", robot.wheelbase_m);
   append_number(text, "\n  ", "ticks_per_revolution", robot.ticks_per_revolution);
+  if (!robot.left_joint.empty()) append(text, "\n  left_joint: " + yaml_string(robot.left_joint));
+  if (!robot.right_joint.empty()) append(text, "\n  right_joint: " + yaml_string(robot.right_joint));
 }
 
 void append_path(Text& text, const RecordedPath& path) {
@@ -129,30 +88,31 @@ Text recording_text(const Recording& recording) {
   return text;
 }
 
-void write(const fs::path& file, const Text& text) { write_text_file(file, {text.data(), text.size()}); }
-
 void write_run(const RecordedRun& run, const fs::path& directory) {
-  const std::string problem = run_id_problem(run.id);
-  if (!problem.empty()) throw RunError(fmt::format("run id '{}' {}", run.id, problem));
-  const fs::path folder = directory / "runs" / run.id;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw RunError(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
-  write(folder / "encoders.csv", encoders_text(run));
-  write(folder / "truth.csv", truth_text(run));
+  RunWriter writer(directory, run.id, run.has_commands);
+  for (const EncoderSample& row : run.encoders) writer.add(row);
+  for (const TruthSample& row : run.truth) writer.add(row);
+  writer.finish();
 }
 
 }  // namespace
 
-void write_recording(const Recording& recording, const fs::path& directory) {
+void write_recording_header(const Recording& recording, const fs::path& directory) {
   std::set<std::string> ids;
   for (const RecordedRun& run : recording.runs) {
     if (!ids.insert(run.id).second) throw RunError(fmt::format("two runs have the id '{}'", run.id));
   }
+  const Text text = recording_text(recording);
+  const RecordedRobot& robot = recording.robot;
+  if (!robot.urdf_text.empty()) write_text_file(directory / urdf_name(robot), robot.urdf_text);
+  write_text_file(directory / "recording.yaml", {text.data(), text.size()});
+}
+
+void write_recording(const Recording& recording, const fs::path& directory) {
+  write_recording_header(recording, directory);
   // Turning numbers into text takes as long as driving.
   tbb::parallel_for(std::size_t(0), recording.runs.size(),
                     [&](std::size_t r) { write_run(recording.runs[r], directory); });
-  write(directory / "recording.yaml", recording_text(recording));
 }
 
 }  // namespace umbsim

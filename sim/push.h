@@ -12,4 +12,15 @@ struct Push {
   double height_m = 0;               ///< above the axle
 };
 
+/// What pulls at the robot's body from outside: a horizontal force through a point of the body, and a torque about the
+/// floor's normal. Directions in the floor frame, the point in the base frame.
+struct Pull {
+  double force_x_n = 0;
+  double force_y_n = 0;
+  double ahead_m = 0;   ///< of the axle's middle
+  double left_m = 0;
+  double height_m = 0;  ///< above the axle
+  double yaw_nm = 0;    ///< counter-clockwise
+};
+
 }  // namespace umbsim

@@ -22,6 +22,7 @@ constexpr double kSwivelFade = 0.05;
 void World::State::step(double step_s, const std::array<double, 2>& target_radps) {
   DofVector u = body.free_velocity(step_s);
   add_pushes(step_s, u);
+  add_pull(step_s, u);
   if (!step_with_holding_motors(step_s, target_radps, u)) step_with_motor_rows(step_s, target_radps, u);
   count(report);
   note_loads(step_s);
@@ -33,6 +34,7 @@ void World::State::step(double step_s, const std::array<double, 2>& target_radps
   ++cost.steps;
   cost.simulated_s += step_s;
   check_finite();
+  watch_standing();
 }
 
 // Nearly always both motors can hold their set-points: the wheel speeds are then known, and the contacts act on a
@@ -143,6 +145,16 @@ void World::State::add_pushes(double step_s, DofVector& u) {
     body.jacobian(-1, {p.ahead_m, 0, p.height_m}, {std::cos(p.direction_rad), std::sin(p.direction_rad), 0}, force);
     u += body.inverse_mass().lazyProduct(force) * (p.impulse_ns * overlap_s / p.duration_s);
   }
+}
+
+void World::State::add_pull(double step_s, DofVector& u) {
+  if (pull.force_x_n == 0 && pull.force_y_n == 0 && pull.yaw_nm == 0) return;
+  const Eigen::Matrix3d R_BW = body.rotation().transpose();
+  DofVector force;
+  body.jacobian(-1, {pull.ahead_m, pull.left_m, pull.height_m}, R_BW * Eigen::Vector3d(pull.force_x_n, pull.force_y_n, 0),
+                force);
+  force.head<3>() += R_BW.col(2) * pull.yaw_nm;
+  u += body.inverse_mass().lazyProduct(force) * step_s;
 }
 
 // A = J M^-1 J^T + compliance, over the first N degrees of freedom. M_inverse is symmetric: its layout does not matter.

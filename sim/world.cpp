@@ -73,10 +73,10 @@ RollingShape World::State::shape(const Support& s) const {
           s.disc ? Vector3d(body.rotation() * at.axis) : Vector3d(Vector3d::Zero()), radius_m};
 }
 
-void World::State::set_gravity() {
+Vector3d World::State::gravity_mps2() const {
   const double down = options.gravity_mps2 * std::cos(floor.slope_rad),
                along = options.gravity_mps2 * std::sin(floor.slope_rad);
-  body.set_gravity({along * std::cos(floor.downhill_rad), along * std::sin(floor.downhill_rad), -down});
+  return {along * std::cos(floor.downhill_rad), along * std::sin(floor.downhill_rad), -down};
 }
 
 bool World::State::near_cable() const {
@@ -112,6 +112,7 @@ void World::place(const Pose2& X_WB) {
   s.heading_rad = X_WB.theta_rad;
   s.command_radps = s.last_command_radps = s.set_point_radps = {};
   s.radius_factor = {1, 1};
+  s.pull = {};
   s.time_s = -kSettle_s;
   for (int i = 0; i < 2; ++i) s.shaft_rad[i] = s.body.joint_angle(i);
   s.rest_load_n = {};
@@ -133,7 +134,8 @@ void World::command(double left_radps, double right_radps) {
     if (!(std::abs(radps) > kFastestCommand_radps)) continue;
     throw InputError(
         fmt::format("{}: a wheel is commanded to turn at {:g} rad/s (must be >= {:g} and <= {:g}); this comes "
-                    "from the speeds of the course and from the radii and wheelbase of the odometry",
+                    "from the speeds of the course, from the radii and wheelbase of the odometry, or from a driver that no "
+                    "longer holds its course",
                     state_->robot.urdf, radps, -kFastestCommand_radps, kFastestCommand_radps));
   }
   state_->command_radps = {left_radps, right_radps};
@@ -152,6 +154,13 @@ void World::advance(double duration_s) {
 void World::lay_cable(const Cable& cable) { state_->floor.cables.push_back(cable); }
 
 void World::scale_rolling_radius(int wheel, double factor) { state_->radius_factor[wheel] = factor; }
+
+void World::set_pull(const Pull& pull) { state_->pull = pull; }
+
+void World::set_carpet_drift(double x, double y) {
+  state_->floor.drift_x = x;
+  state_->floor.drift_y = y;
+}
 
 Pose2 World::pose() const {
   const Vector3d& p = state_->body.position();

@@ -12,6 +12,7 @@
 #include "sim/floor.h"
 #include "sim/push.h"
 #include "sim/robot_model.h"
+#include "sim/standing.h"
 
 namespace umbsim {
 
@@ -63,7 +64,9 @@ class World {
   /// Wheel speeds at the end of the next `advance`, forward positive. Throws InputError beyond 1e6 rad/s either way.
   void command(double left_radps, double right_radps);
 
-  /// Simulates `duration_s`. Throws RunError if the state becomes non-finite.
+  /// Simulates `duration_s`. Throws RunError if the state becomes non-finite, TippedOver if the robot no longer stands on
+  /// its wheels and casters: it leans by more than kTippedOver_rad, or what touches the floor lies on one line for longer
+  /// than kMoment_s.
   void advance(double duration_s);
 
   /// The moment at the end of the last `advance`.
@@ -78,6 +81,13 @@ class World {
   /// floor or tyre does this, other at every grain.
   void scale_rolling_radius(int wheel, double factor);
 
+  /// Acts from now on until set anew.
+  void set_pull(const Pull& pull);
+
+  /// From now on the floor carries wheels by this much per metre that they roll, floor frame: in the place of
+  /// Floor::drift_x and drift_y.
+  void set_carpet_drift(double x, double y);
+
   /// Pose of the axle's middle, projected on the floor plane; heading unwrapped.
   Pose2 pose() const;
   /// 0 left, 1 right; radians since `place`, relative to the base, forward positive.
@@ -89,6 +99,8 @@ class World {
   /// Roll and pitch, for tests and traces.
   Eigen::Vector3d up() const;
   const SupportLoads& loads() const;
+  /// How it stands as it is now.
+  Standing standing() const;
   const PhysicsCost& cost() const;
   /// Kinetic plus potential energy, joules. For tests.
   double energy() const;

@@ -41,6 +41,7 @@ struct World::State {
   Floor floor;
   PhysicsOptions options;
   std::vector<Push> pushes;
+  Pull pull;
   MultiBody body;
   std::vector<Support> supports;
   SupportLoads loads;
@@ -54,6 +55,8 @@ struct World::State {
   std::array<double, 2> rest_load_n{};       // that squashes a tyre at rest
   double time_s = -1;                        // since place; pushes act from 0 on
   double heading_rad = 0;
+  double stood_s = 0;                        // when the robot stood last, and how it was turned
+  double stood_heading_rad = 0;
 
   // Rows of the current step: each is J_i, with response M^-1 J_i^T, and a compliance on the diagonal (velocity per
   // impulse).
@@ -89,7 +92,9 @@ struct World::State {
   void add_backlash(int wheel, double target_radps, double step_s, const DofVector& u);
   void move_shafts(double step_s, const std::array<double, 2>& target_radps);
   void add_pushes(double step_s, DofVector& u);
-  void set_gravity();
+  Eigen::Vector3d gravity_mps2() const;
+  void set_gravity() { body.set_gravity(gravity_mps2()); }
+  void add_pull(double step_s, DofVector& u);
   template <int N>
   void assemble(const double* M_inverse, int dofs, int stride);
   void solve();
@@ -100,6 +105,8 @@ struct World::State {
   void soften();
   void check_loads() const;
   void check_finite() const;
+  bool stands() const;
+  void watch_standing();
   bool near_cable() const;
   void track_heading();
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "umbmark/control_loop.h"
+
 namespace umbsim {
 namespace {
 
@@ -28,32 +30,32 @@ double extent_at(const Segment& s, double t) {
   return s.speed * (t - s.ramp_s / 2);
 }
 
-// Gains of the pose correction, per second. Across the path the error obeys y'' + kHeading y' + kAcross^2 y = 0 at any
-// speed above kSlow_mps: critically damped.
-constexpr double kAlong = 4;
-constexpr double kHeading = 6;
-constexpr double kAcross = 3;
-constexpr double kSlow_mps = 0.1;
-
-}  // namespace
-
-Plan::Plan(const Course& course, Direction direction) {
+std::vector<Segment> square(const Course& course, Direction direction) {
   const bool arc_turn = course.turn == "arc";
   const double turn_rad = (direction == Direction::ccw ? 1 : -1) * M_PI / 2;
   const double leg_m = arc_turn ? course.side_m - 2 * course.turn_radius_m : course.side_m;
-  Pose2 X_SB;
+  std::vector<Segment> shapes;
   for (int leg = 1; leg <= 4 * course.laps; ++leg) {
-    Segment straight{.kind = Segment::Kind::leg, .leg = leg, .length_m = leg_m, .X_SB_start = {}};
-    Segment turn{.kind = Segment::Kind::turn, .leg = leg, .length_m = arc_turn ? course.turn_radius_m * M_PI / 2 : 0,
-                 .angle_rad = turn_rad, .X_SB_start = {}};
-    for (Segment* segment : {&straight, &turn}) {
-      set_profile(*segment, course);
-      segment->start_s = duration_s_;
-      segment->X_SB_start = X_SB;
-      X_SB = X_SB * arc(segment->length_m, segment->angle_rad);
-      duration_s_ += segment->duration_s + course.dwell_s;
-      segments_.push_back(*segment);
-    }
+    shapes.push_back({.kind = Segment::Kind::leg, .leg = leg, .length_m = leg_m, .X_SB_start = {}});
+    shapes.push_back({.kind = Segment::Kind::turn, .leg = leg,
+                      .length_m = arc_turn ? course.turn_radius_m * M_PI / 2 : 0, .angle_rad = turn_rad,
+                      .X_SB_start = {}});
+  }
+  return shapes;
+}
+
+}  // namespace
+
+Plan::Plan(const Course& course, Direction direction) : Plan(course, square(course, direction)) {}
+
+Plan::Plan(const Course& course, const std::vector<Segment>& shapes) : segments_(shapes) {
+  Pose2 X_SB;
+  for (Segment& segment : segments_) {
+    set_profile(segment, course);
+    segment.start_s = duration_s_;
+    segment.X_SB_start = X_SB;
+    X_SB = X_SB * arc(segment.length_m, segment.angle_rad);
+    duration_s_ += segment.duration_s + course.dwell_s;
   }
 }
 
@@ -71,21 +73,24 @@ Reference Plan::at(double time_s, int segment_hint) const {
   return {s.X_SB_start * arc(part * s.length_m, part * s.angle_rad), i};
 }
 
-WheelSpeeds drive(const Plan& plan, double time_s, double period_s, const Pose2& X_SB, const DriveGeometry& geometry,
-                  int segment_hint) {
-  const Reference now = plan.at(time_s, segment_hint);
-  const Reference next = plan.at(time_s + period_s, now.segment);
-  const Pose2 motion = inverse(now.X_SB) * next.X_SB;
+WheelSpeeds follow(const Pose2& X_SR_now, const Pose2& X_SR_next, double period_s, const Pose2& X_SB,
+                   const DriveGeometry& geometry) {
+  const Pose2 motion = inverse(X_SR_now) * X_SR_next;
   const double turn = motion.theta_rad;
   const double feed_v = motion.x_m / (sinc(turn / 2) * std::cos(turn / 2)) / period_s;
   const double feed_w = turn / period_s;
 
-  const Pose2 error = inverse(X_SB) * now.X_SB;
-  const double v = feed_v * std::cos(error.theta_rad) + kAlong * error.x_m;
-  const double across = kAcross * kAcross * feed_v / std::max(feed_v * feed_v, kSlow_mps * kSlow_mps);
-  const double w = feed_w + kHeading * error.theta_rad + across * error.y_m;
+  const Pose2 error = inverse(X_SB) * X_SR_now;
+  const double v = feed_v * std::cos(error.theta_rad) + kDriver.along * error.x_m;
+  const double w = feed_w + kDriver.heading * error.theta_rad + across_gain(feed_v) * error.y_m;
   const double half_m = geometry.wheelbase_m / 2;
   return {(v - w * half_m) / geometry.left_radius_m, (v + w * half_m) / geometry.right_radius_m};
+}
+
+WheelSpeeds drive(const Plan& plan, double time_s, double period_s, const Pose2& X_SB, const DriveGeometry& geometry,
+                  int segment_hint) {
+  const Reference now = plan.at(time_s, segment_hint);
+  return follow(now.X_SB, plan.at(time_s + period_s, now.segment).X_SB, period_s, X_SB, geometry);
 }
 
 }  // namespace umbsim

@@ -48,6 +48,9 @@ struct Reference {
 class Plan {
  public:
   Plan(const Course& course, Direction direction);
+  /// Any way of legs and turns: of each shape `kind`, `leg`, `length_m` and `angle_rad` count, of the course the speeds,
+  /// accelerations and the dwell.
+  Plan(const Course& course, const std::vector<Segment>& shapes);
 
   const std::vector<Segment>& segments() const { return segments_; }
   double duration_s() const { return duration_s_; }  ///< with dwells
@@ -72,6 +75,11 @@ struct DriveGeometry {
   double right_radius_m = 0;
   double wheelbase_m = 0;
 };
+
+/// Wheel speeds over a period in which the reference goes from `X_SR_now` to `X_SR_next`: the reference's own motion, and
+/// a correction of the pose error (after Kanayama et al. 1990) that fades out within a second.
+WheelSpeeds follow(const Pose2& X_SR_now, const Pose2& X_SR_next, double period_s, const Pose2& X_SB,
+                   const DriveGeometry& geometry);
 
 /// Speeds over the control period that begins at `time_s`: the reference's own motion, and a correction of the pose
 /// error (after Kanayama et al. 1990) that fades out within a second. All poses in the frame of the start.

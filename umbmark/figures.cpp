@@ -14,13 +14,15 @@ namespace {
 // Shares of errors smaller than this would be shares of round-off.
 constexpr double kRoundOff_rad = 1e-6;
 
-bool is_bumped(const RecordedRun& run) { return !run.bumps.empty() || run.inner_wheel_bumps.value_or(0) > 0; }
-
 double mean_abs_deviation(const Cluster& bumped, double plain_heading_rad) {
   double sum = 0;
   for (const ReturnError& e : bumped.errors) sum += std::abs(e.theta_rad - plain_heading_rad);
   return sum / double(bumped.errors.size());
 }
+
+}  // namespace
+
+bool is_bumped(const RecordedRun& run) { return !run.bumps.empty() || run.inner_wheel_bumps.value_or(0) > 0; }
 
 int bump_count(const Recording& recording) {
   int count = 0;
@@ -30,8 +32,6 @@ int bump_count(const Recording& recording) {
   return count;
 }
 
-}  // namespace
-
 ReturnError return_error(const RecordedRun& run, const OdometryParameters& odometry) {
   if (run.truth.size() < 2) throw InputError(fmt::format("run {}: no absolute pose at start and end", run.id));
   if (run.encoders.size() < 2) throw InputError(fmt::format("run {}: no encoder data", run.id));
@@ -39,8 +39,11 @@ ReturnError return_error(const RecordedRun& run, const OdometryParameters& odome
   DeadReckoning reckoning(odometry, {}, first.left_ticks, first.right_ticks);
   for (const EncoderSample& sample : run.encoders) reckoning.update(sample.left_ticks, sample.right_ticks);
   const Pose2 absolute = inverse(run.truth.front().X_WB) * run.truth.back().X_WB;
-  const Pose2& calculated = reckoning.pose();
-  return {run.id, absolute.x_m - calculated.x_m, absolute.y_m - calculated.y_m,
+  return return_error(run.id, absolute, reckoning.pose());
+}
+
+ReturnError return_error(const std::string& run, const Pose2& absolute, const Pose2& calculated) {
+  return {run, absolute.x_m - calculated.x_m, absolute.y_m - calculated.y_m,
           absolute.theta_rad - calculated.theta_rad};
 }
 
@@ -173,18 +176,23 @@ Umbmark umbmark(const Recording& recording, const OdometryParameters& odometry) 
   return umbmark(std::move(cw), std::move(ccw), recording.path.side_m, odometry.wheelbase_m);
 }
 
-std::optional<ExtendedUmbmark> extended_umbmark(const Recording& recording, const OdometryParameters& odometry,
-                                                const Umbmark& plain) {
+ExtendedUmbmark extended_umbmark(Cluster cw, Cluster ccw, const Umbmark& plain, int bumps) {
   ExtendedUmbmark e;
-  e.cw = cluster(return_errors(recording, odometry, "cw", true));
-  e.ccw = cluster(return_errors(recording, odometry, "ccw", true));
-  if (e.cw.errors.empty() || e.ccw.errors.empty()) return std::nullopt;
+  e.cw = std::move(cw);
+  e.ccw = std::move(ccw);
   e.cw_mean_abs_heading_error_rad = mean_abs_deviation(e.cw, plain.cw.heading_rad);
   e.ccw_mean_abs_heading_error_rad = mean_abs_deviation(e.ccw, plain.ccw.heading_rad);
   e.mean_abs_heading_error_rad = e.cw_mean_abs_heading_error_rad + e.ccw_mean_abs_heading_error_rad;
-  const int bumps = bump_count(recording);
   if (bumps > 0) e.per_bump_heading_error_rad = e.mean_abs_heading_error_rad / 2 / bumps;
   return e;
+}
+
+std::optional<ExtendedUmbmark> extended_umbmark(const Recording& recording, const OdometryParameters& odometry,
+                                                const Umbmark& plain) {
+  Cluster cw = cluster(return_errors(recording, odometry, "cw", true));
+  Cluster ccw = cluster(return_errors(recording, odometry, "ccw", true));
+  if (cw.errors.empty() || ccw.errors.empty()) return std::nullopt;
+  return extended_umbmark(std::move(cw), std::move(ccw), plain, bump_count(recording));
 }
 
 }  // namespace umbsim

@@ -80,6 +80,13 @@ std::vector<ReturnError> return_errors(const Recording& recording, const Odometr
                                        const std::string& direction, bool bumped);
 
 ReturnError return_error(const RecordedRun& run, const OdometryParameters& odometry);
+/// From the absolute and the calculated pose at its end, in the frame of its start.
+ReturnError return_error(const std::string& run, const Pose2& absolute, const Pose2& calculated);
+
+/// A run with cables.
+bool is_bumped(const RecordedRun& run);
+/// Cables of a bumped run, the most of all; 0: not known.
+int bump_count(const Recording& recording);
 
 Cluster cluster(std::vector<ReturnError> errors);
 
@@ -97,6 +104,9 @@ Umbmark umbmark(const Recording& recording, const OdometryParameters& odometry);
 /// Empty if the recording has no bumped runs of both directions.
 std::optional<ExtendedUmbmark> extended_umbmark(const Recording& recording, const OdometryParameters& odometry,
                                                 const Umbmark& plain);
+
+/// Of both directions' bumped runs, neither of them empty.
+ExtendedUmbmark extended_umbmark(Cluster cw, Cluster ccw, const Umbmark& plain, int bumps);
 
 /// E_d and E_b from alpha and beta by Borenstein & Feng's formulas (small-angle where alpha and beta come from return
 /// positions).

@@ -16,7 +16,6 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/random.h"
-#include "core/text_file.h"
 #include "gap/trial/answers.h"
 #include "gap/trial/trial_folder.h"
 
@@ -89,10 +88,7 @@ Json answer_of(const Case& c, const Scales* scales) {
 
 void write_case(const TrialDrive& drive, const EngineOptions& engine, const fs::path& folder) {
   try {
-    write_whole(folder, [&](const fs::path& into) {
-      write_text_file(into / kTrialUrdf, robot_urdf(drive.robot));
-      write_recording(drive_case(engine, drive), into);
-    });
+    write_whole(folder, [&](const fs::path& into) { write_recording(drive_case(engine, drive), into); });
   } catch (const RunError& e) {
     throw RunError(fmt::format("{}: {}", folder.filename().string(), e.what()));
   }

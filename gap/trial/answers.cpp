@@ -76,7 +76,7 @@ Answer read_answer(const YamlValue& value) {
       if (chosen == name(t)) answer.tier = t;
     }
   }
-  for (const char* note : {"platform", "noise_level", "seed"}) map.find(note);
+  for (const char* note : {"platform", "noise_level", "seed", "world"}) map.find(note);
   map.finish();
   return answer;
 }

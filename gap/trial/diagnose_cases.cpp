@@ -1,13 +1,14 @@
 #include "gap/trial/diagnose_cases.h"
 
-#include <chrono>
-#include <thread>
-
-#include <boost/process.hpp>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <boost/process.hpp>
+#include <chrono>
+#include <thread>
 
 #include "core/error.h"
 #include "core/progress.h"
@@ -32,7 +33,7 @@ struct Finished {
 
 // The process sees `scratch` and the cache, and no name of the case.
 Finished run_process(const DiagnoseOptions& options, const fs::path& scratch, const fs::path& cache,
-                     const std::vector<std::string>& excluded) {
+                     const std::vector<std::string>& excluded, int threads) {
   std::vector<std::string> words{"gap", "diagnose", "recording", "--out", "diagnosis"};
   for (const std::string& effect : excluded) words.insert(words.end(), {"--exclude", effect});
   bp::environment environment;
@@ -41,6 +42,7 @@ Finished run_process(const DiagnoseOptions& options, const fs::path& scratch, co
   environment["HOME"] = scratch.string();
   environment["TMPDIR"] = scratch.string();
   environment["XDG_CACHE_HOME"] = cache.string();
+  environment["UMBSIM_JOBS"] = std::to_string(threads);
   const fs::path messages = scratch / "messages";
   const auto start = std::chrono::steady_clock::now();
   Finished finished;
@@ -58,7 +60,7 @@ Finished run_process(const DiagnoseOptions& options, const fs::path& scratch, co
 }
 
 void diagnose_case(const TrialFolder& folder, const DiagnoseOptions& options, const fs::path& cache,
-                   const CaseEntry& entry, const std::optional<std::string>& seal) {
+                   const CaseEntry& entry, const std::optional<std::string>& seal, int threads) {
   const fs::path recording = folder.recordings() / entry.name;
   if (!fs::is_directory(recording)) {
     throw InputError(fmt::format("{}: no such recording; generate the trial first", recording.string()));
@@ -66,7 +68,7 @@ void diagnose_case(const TrialFolder& folder, const DiagnoseOptions& options, co
   const ScratchFolder scratch;
   fs::copy(recording, scratch.path() / "recording", fs::copy_options::recursive);
   normalise_times(scratch.path() / "recording");
-  const Finished finished = run_process(options, scratch.path(), cache, entry.excluded);
+  const Finished finished = run_process(options, scratch.path(), cache, entry.excluded, threads);
   const bool ok = finished.exit_code == 0 && fs::exists(scratch.path() / "diagnosis" / "diagnosis.json");
   Json json{{"format", "umbsim-trial-process/1"}, {"exit_code", finished.exit_code}, {"wall_s", finished.wall_s},
             {"failed", !ok}, {"answers_sha256", seal ? Json(*seal) : Json()}};
@@ -101,8 +103,9 @@ DiagnoseResult diagnose_cases(const TrialFolder& folder, const DiagnoseOptions& 
     if (!fs::exists(place)) open.push_back(&entries[i]);
   }
   Progress progress("diagnosing", int(open.size()));
-  // Threads that wait for processes.
+  // Threads that wait for processes. Together these take no more cores than there are jobs.
   const int jobs = options.jobs > 0 ? options.jobs : int(std::max(1u, std::thread::hardware_concurrency()));
+  const int threads = jobs / std::clamp(int(open.size()), 1, jobs);
   tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(jobs));
   tbb::task_arena arena(jobs);
   arena.execute([&] {
@@ -110,7 +113,7 @@ DiagnoseResult diagnose_cases(const TrialFolder& folder, const DiagnoseOptions& 
         tbb::blocked_range<std::size_t>(0, open.size(), 1),
         [&](const tbb::blocked_range<std::size_t>& range) {
           for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            diagnose_case(folder, options, cache, *open[i], seal);
+            diagnose_case(folder, options, cache, *open[i], seal, threads);
             progress.step();
           }
         },

@@ -97,13 +97,12 @@ DrivenCase drive_case(const TrialPlan& plan, const TrialCase& c, const Platform&
   }
 }
 
-void write_case(const TrialFolder& folder, const TrialCase& c, const Platform& platform, const DrivenCase& driven) {
+void write_case(const TrialFolder& folder, const TrialCase& c, const DrivenCase& driven) {
   // The answer first: a recording that stands has one.
   write_file_whole(folder.answer_parts() / (c.name + ".json"), answer_json(c, driven.effects).dump());
   write_whole(folder.recordings() / c.name, [&](const fs::path& into) {
     write_recording(driven.recording, into);
     write_even_tables(driven.recording, into);
-    write_text_file(into / kTrialUrdf, robot_urdf(platform.robot));
     normalise_times(into);
   });
 }
@@ -168,7 +167,7 @@ GenerateResult generate_trial(const TrialPlan& plan, const TrialFolder& folder, 
   Progress progress("driving cases", int(open.size()));
   tbb::parallel_for(std::size_t(0), open.size(), [&](std::size_t i) {
     const Platform platform = draw_platform(plan, open[i]->platform);
-    write_case(folder, *open[i], platform, drive_case(plan, *open[i], platform, scales, simulator));
+    write_case(folder, *open[i], drive_case(plan, *open[i], platform, scales, simulator));
     progress.step();
   });
   GenerateResult result;

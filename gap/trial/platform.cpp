@@ -107,7 +107,7 @@ std::string robot_urdf(const TrialRobot& r) {
 Recording planned_recording(const TrialPlan& plan, const Platform& p, const std::vector<PlannedRun>& runs) {
   Recording r;
   r.title = "trial recording";
-  r.robot = {kTrialUrdf, p.robot.wheel_radius_m, p.robot.wheelbase_m, p.ticks_per_revolution};
+  r.robot = {kTrialUrdf, p.robot.wheel_radius_m, p.robot.wheelbase_m, p.ticks_per_revolution, robot_urdf(p.robot)};
   r.path.side_m = p.side_m;
   r.path.linear_speed_mps = p.linear_speed_mps;
   r.path.angular_speed_radps = p.angular_speed_radps;

@@ -64,6 +64,13 @@ std::array<double, 3> difference(const Pose2& a, const Pose2& b) {
   return {a.x_m - b.x_m, a.y_m - b.y_m, a.theta_rad - b.theta_rad};
 }
 
+// The row of encoders.csv nearest to a time.
+std::size_t row_at(const RecordedRun& run, double time_s, double rate_hz) {
+  const auto row = std::lower_bound(run.encoders.begin(), run.encoders.end(), time_s - 0.5 / rate_hz,
+                                    [](const EncoderSample& e, double t) { return e.time_s < t; });
+  return std::min(std::size_t(row - run.encoders.begin()), run.encoders.size() - 1);
+}
+
 std::vector<std::array<double, 3>> run_track(const Recording& recording, const RecordedRun& run, Signal signal) {
   const WheelPaths paths = wheel_paths(recording.robot, run);
   const Pose2 X_SW = inverse(run.truth.front().X_WB);
@@ -72,35 +79,11 @@ std::vector<std::array<double, 3>> run_track(const Recording& recording, const R
   for (int k = 1; k <= moments; ++k) {
     const std::size_t row = (run.truth.size() - 1) * std::size_t(k) / std::size_t(moments);
     const TruthSample& truth = run.truth[row];
-    std::size_t at = std::size_t(std::llround(truth.time_s * recording.encoder_rate_hz));
-    at = std::min(at, paths.ticks.size() - 1);
+    const std::size_t at = row_at(run, truth.time_s, recording.encoder_rate_hz);
     track.push_back(signal == Signal::odometry ? difference(X_SW * truth.X_WB, paths.ticks[at])
                                                : difference(paths.ticks[at], paths.commands[at]));
   }
   return track;
-}
-
-// Root mean squares of a - b; `b` empty: of a.
-SignalSize size_of(const SignalTrack& a, const SignalTrack* b) {
-  SignalSize sum;
-  double count = 0;
-  for (std::size_t r = 0; r < a.size(); ++r) {
-    std::array<double, 3> last{};  // at the start nothing differs
-    for (std::size_t k = 0; k < a[r].size(); ++k) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double d = a[r][k][c] - (b ? (*b)[r][k][c] : 0);
-        sum.whole[c] += d * d;
-        sum.steps[c] += (d - last[c]) * (d - last[c]);
-        last[c] = d;
-      }
-      ++count;
-    }
-  }
-  for (std::size_t c = 0; c < 3; ++c) {
-    sum.whole[c] = std::sqrt(sum.whole[c] / count);
-    sum.steps[c] = std::sqrt(sum.steps[c] / count);
-  }
-  return sum;
 }
 
 // Root mean square over the components that have noise.
@@ -195,6 +178,32 @@ SignalTrack signal_track(const Recording& recording, Signal signal) {
   return track;
 }
 
+SignalSize signal_size(const SignalTrack& a, const SignalTrack* b) {
+  SignalSize sum;
+  double count = 0;
+  for (std::size_t r = 0; r < a.size(); ++r) {
+    std::array<double, 3> last{};  // at the start nothing differs
+    for (std::size_t k = 0; k < a[r].size(); ++k) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double d = a[r][k][c] - (b ? (*b)[r][k][c] : 0);
+        sum.whole[c] += d * d;
+        sum.steps[c] += (d - last[c]) * (d - last[c]);
+        last[c] = d;
+      }
+      ++count;
+    }
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    sum.whole[c] = std::sqrt(sum.whole[c] / count);
+    sum.steps[c] = std::sqrt(sum.steps[c] / count);
+  }
+  return sum;
+}
+
+double severity(const SignalSize& change, const SignalSize& noise) {
+  return std::max(ratio(change.whole, noise.whole), ratio(change.steps, noise.steps));
+}
+
 SeverityScale::SeverityScale(const TrialPlan& plan, const Platform& platform, Recording planned,
                              const TrialSimulator& simulator)
     : simulator_(simulator) {
@@ -220,9 +229,9 @@ SeverityScale::SeverityScale(const TrialPlan& plan, const Platform& platform, Re
       without[s].insert(without[s].end(), nominal_[s].begin(), nominal_[s].end());
     }
   }
-  noise_[std::size_t(Signal::odometry)] = size_of(tracks[0], &without[0]);
+  noise_[std::size_t(Signal::odometry)] = signal_size(tracks[0], &without[0]);
   // Motors that follow exactly leave quantisation as the only noise of their signal.
-  noise_[std::size_t(Signal::motors)] = size_of(tracks[1], nullptr);
+  noise_[std::size_t(Signal::motors)] = signal_size(tracks[1], nullptr);
 }
 
 double SeverityScale::severity(const Effect& effect, Signal signal) const {
@@ -230,9 +239,8 @@ double SeverityScale::severity(const Effect& effect, Signal signal) const {
   drive.effects = {effect};
   try {
     const SignalTrack track = signal_track(simulator_(drive), signal);
-    const SignalSize change = size_of(track, &nominal_[std::size_t(signal)]);
-    const SignalSize& floor = noise(signal);
-    return std::max(ratio(change.whole, floor.whole), ratio(change.steps, floor.steps));
+    const SignalSize change = signal_size(track, &nominal_[std::size_t(signal)]);
+    return umbsim::severity(change, noise(signal));
   } catch (const std::runtime_error&) {  // RunError, or InputError: it tips over, or is driven out of all bounds
     return std::numeric_limits<double>::infinity();
   }

@@ -46,6 +46,12 @@ struct SignalSize {
   std::array<double, 3> steps{};
 };
 
+/// Of a - b; without b: of a.
+SignalSize signal_size(const SignalTrack& a, const SignalTrack* b);
+
+/// max over both scales of sqrt(mean over x, y, heading of mean(change^2) / mean(noise^2)).
+double severity(const SignalSize& change, const SignalSize& noise);
+
 /// Severities on one platform with one set of runs. An effect's severity is
 ///   s = max over both scales of sqrt( mean over x, y, heading of  mean(change^2) / mean(noise^2) ),
 /// inner means over all runs and moments. The change is the signal of a drive with the effect minus that of a drive

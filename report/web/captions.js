@@ -54,8 +54,7 @@ const CAPTIONS = {
   types: `<p><b>Type A</b> changes the total turn alike in both directions. It comes from the wheelbase (E<sub>b</sub>): a
     robot that turns 85° when told 90° turns 4 × 85° = 340° either way. <b>Type B</b> acts in opposite senses: with
     unequal wheels (E<sub>d</sub>) every leg is an arc, so one direction turns too far in all and the other too little.
-    They occur together; only the sum and the difference of the two directions tell them apart. The end-point form is
-    the published one (small angles); the form from headings is exact.</p>`,
+    They occur together; only the sum and the difference of the two directions tell them apart.</p>`,
 
   recovery: `The squares are driven anew; nothing here is predicted by algebra. On the real LabMate of the original paper
     the factor was 10 to 22. The mean wheel diameter stays as it was: no closed square can observe it.`,

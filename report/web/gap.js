@@ -10,7 +10,7 @@ function buildGapPage(data) {
   document.getElementById("report").innerHTML = `
     <header>
       <h1>${escapeHtml(data.title)}</h1>
-      <p class="headline">${gapHeadline(d)}</p>
+      <p class="headline">${escapeHtml(d.verdict)}</p>
       ${gapTilesHtml(d)}
     </header>
     <section id="where"></section>

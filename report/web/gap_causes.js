@@ -4,27 +4,18 @@
 
 const gapWords = (name) => String(name).replace(/_/g, " ");
 
-const gapNames = (cause) => Object.keys(cause.effects);
+const gapNames = (cause) => Object.keys(cause.effects).sort();
 
 const gapTitle = (cause) => gapNames(cause).map(gapWords).join(" + ");
 
 const isNamed = (cause) => !["none", "unknown"].includes(gapNames(cause)[0]);
 
-// 0.00201 [0.00195, 0.00207], to the digits that the interval leaves.
-function gapValue({value, ci95, unit}) {
-  const withUnit = unit && unit !== "1" ? `\u00a0${escapeHtml(unit)}` : "";
-  if (ci95[0] === ci95[1]) return `${minus(String(Number(value.toPrecision(4))))}${withUnit}`;
-  const width = Math.max(Math.abs(ci95[1] - ci95[0]), Math.abs(value) * 1e-4, 1e-12);
-  const decimals = Math.max(0, Math.min(9, 1 - Math.floor(Math.log10(width))));
-  return `${fixed(value, decimals)} <span class="muted">[${fixed(ci95[0], decimals)}, ${fixed(ci95[1], decimals)}]</span>${withUnit}`;
-}
-
-// The unit stands behind the value.
-const gapParameterName = (name) => gapWords(name.replace(/_(m|rad|s|nm|mps|radps)$/, ""));
-
+// Each number by its effect, as on the terminal: the program writes the texts. What stayed neutral has none.
 function gapParameters(cause) {
-  return Object.values(cause.effects).flatMap((parameters) => Object.entries(parameters).map(
-      ([name, p]) => `${escapeHtml(gapParameterName(name))} ${typeof p === "object" ? gapValue(p) : escapeHtml(p)}`)).join("<br>");
+  return gapNames(cause).map((name) => {
+    const texts = Object.values(cause.effects[name]).map((p) => (typeof p === "object" ? p.text : `in ${p}`)).filter(Boolean);
+    return texts.length ? `${escapeHtml(gapWords(name))}: ${escapeHtml(texts.join(", "))}` : "";
+  }).filter(Boolean).join("<br>");
 }
 
 const percent = (p) => (p >= 0.9995 ? "100" : p >= 0.0995 ? fixed(100 * p, 0) : p >= 0.0005 ? fixed(100 * p, 1) : "&lt;0.1") + "\u00a0%";
@@ -42,8 +33,8 @@ function gapWhichHtml(d) {
   const set = d.set.map((n) => `<b>${escapeHtml(gapWords(n))}</b>`).join(", ");
   const alike = d.set.length > 1 ? `These data do not tell apart: ${set}.` : `Nothing else in the catalogue explains these data as well as ${set}.`;
   const rest = d.unexplained.detected && d.unexplained.description ? `<p class="notice">Left over: ${escapeHtml(d.unexplained.description)}.</p>` : "";
-  return `<div class="table-wrap"><table><caption>Explanations with their probability, parameters with 95 % intervals (SI units)</caption>
-    <thead><tr><th class="text">explanation</th><th></th><th>probability</th><th class="text">parameters</th></tr></thead>
+  return `<div class="table-wrap"><table><caption>Explanations with their probability, numbers with 95 % intervals</caption>
+    <thead><tr><th class="text">explanation</th><th></th><th>probability</th><th class="text">numbers</th></tr></thead>
     <tbody>${rows.join("")}</tbody></table></div><p>${alike}</p>${rest}`;
 }
 
@@ -56,16 +47,6 @@ function gapWhereText(d) {
 }
 
 const gapMm = (v) => `${fixed(v, v >= 10 ? 1 : 2)}\u00a0mm`;
-
-function gapHeadline(d) {
-  if (!d.gap.detected) {
-    return `No gap: the scenario predicts the runs to <b>${gapMm(d.gap.before_mm)}</b>, within their noise of ${gapMm(d.gap.noise_floor_mm)}.`;
-  }
-  const first = d.causes[0];
-  const cause = isNamed(first) ? `The likeliest cause is <b>${escapeHtml(gapTitle(first))}</b> (${percent(first.probability)}).` :
-                                 "<b>Nothing in the catalogue explains it.</b>";
-  return `The scenario is off by <b>${gapMm(d.gap.before_mm)}</b> along the runs, where run-to-run noise makes ${gapMm(d.gap.noise_floor_mm)}. ${cause}`;
-}
 
 function gapTilesHtml(d) {
   const tile = (name, value, more) => value === "" ? "" :

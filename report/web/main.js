@@ -28,15 +28,15 @@ function headline(data) {
 }
 
 function tilesHtml(data) {
-  const {umbmark = {}, recovery = {}, calibration = {}, injected = {}, extended = {}} = data.summary;
-  const best = calibration.heading || calibration.endpoint || umbmark.heading || {};
+  const {umbmark = {}, recovery = {}, injected = {}, extended = {}} = data.summary;
+  const form = formsOf(data)[0];
   const tiles = [];
   const tile = (name, value, unit, more = "") => {
     if (value === "\u2013") return;
     const number = `<div class="value">${value}${unit ? `<small>${unit}</small>` : ""}</div>`;
     tiles.push(`<div class="tile"><dt>${name}</dt><dd>${number}<div class="more">${more}</div></dd></div>`);
   };
-  const truth = (v) => (isNumber(v) ? `injected ${fixed(v, 5)}` : "");
+  const measured = (v) => `${form.label}${isNumber(v) ? `; injected ${fixed(v, 5)}` : ""}`;
   tile(
       `${E_MAX} before`, mm(umbmark.e_max_syst_m), "\u00a0mm",
       worst(umbmark) ? `set by the ${worst(umbmark)} runs` : "");
@@ -44,8 +44,8 @@ function tilesHtml(data) {
   tile(
       "Improvement", factor(recovery.improvement), "\u00a0\u00d7",
       isNumber(recovery.passes) ? `in ${recovery.passes} pass${recovery.passes === 1 ? "" : "es"}` : "");
-  tile("E<sub>d</sub>, wheel diameters", fixed(best.e_d, 5), "", truth(injected.e_d));
-  tile("E<sub>b</sub>, wheelbase", fixed(best.e_b, 5), "", truth(injected.e_b));
+  tile("E<sub>d</sub>, wheel diameters", fixed(form.e_d, 5), "", measured(injected.e_d));
+  tile("E<sub>b</sub>, wheelbase", fixed(form.e_b, 5), "", measured(injected.e_b));
   tile(
       "Extended figure", degUnit(extended.mean_abs_heading_error_rad), "",
       isNumber(extended.per_bump_heading_error_rad) ? `${degUnit(extended.per_bump_heading_error_rad)} per bump` : "");

@@ -115,11 +115,20 @@ function extendedHtml(data) {
   return beside(html, CAPTIONS.extended);
 }
 
+// Both forms of E_d and E_b, the applied one first; without one the exact one.
+function formsOf({summary: {umbmark = {}, calibration = {}}}) {
+  const forms = ["heading", "endpoint"].map((name) => {
+    const applied = calibration.applied === name;
+    return {name, applied, label: `${name} form${applied ? ", applied" : ""}`, ...umbmark[name], ...calibration[name]};
+  });
+  return forms.sort((a, b) => b.applied - a.applied);
+}
+
 function calibrationHtml(data) {
-  const {umbmark = {}, calibration = {}, injected = {}} = data.summary;
+  const {umbmark = {}, injected = {}} = data.summary;
+  const forms = formsOf(data);
   const columns = [
-    ["from end points", {...umbmark.endpoint, ...calibration.endpoint}],
-    ["from headings", {...umbmark.heading, ...calibration.heading}],
+    ...forms.map((form) => [form.label, form]),
     ["injected", {...anglesOf(injected, data), ...injected}],
   ].filter(([, c]) => Object.values(c).some(isNumber));
   const row = (name, value) => [name, ...columns.map(([, c]) => value(c))];
@@ -135,7 +144,8 @@ function calibrationHtml(data) {
     row("c<sub>R</sub> = 2 / (1/E<sub>d</sub> + 1)",
         (c) => (isNumber(c.e_d) ? fixed(2 / (1 / c.e_d + 1), 5) : "\u2013")),
   ]);
-  return beside(html, sharesHtml(umbmark) + CAPTIONS.types);
+  const trust = forms.filter((f) => f.trust).map((f) => `<p><b>${f.name} form</b>: ${escapeHtml(f.trust)}.</p>`);
+  return beside(html, sharesHtml(umbmark) + trust.join("") + CAPTIONS.types);
 }
 
 // Alpha and beta that belong to known E_d and E_b: the equations of the lecture solved for them.

@@ -34,7 +34,7 @@ const std::map<std::string, Names> kArrows = {
       "core"}},
 };
 /// Of effects/, gap/ may see the table only.
-const Names kGapSeesOfEffects = {"effects/catalogue.h"};
+const Names kGapSeesOfEffects = {"effects/catalogue.h", "effects/words.h"};
 
 /// Where Bullet may be seen.
 const Names kSeesBullet = {"sim", "tests/sim", "bench"};

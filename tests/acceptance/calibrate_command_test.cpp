@@ -35,13 +35,27 @@ TEST(CalibrateCommand, AgreesWithTheRunFolderItReads) {
   EXPECT_EQ(desk.umbsim({"calibrate", "a/calibrated", "--out", "d"}).code, 0);
 }
 
+TEST(CalibrateCommand, SaysWhichFormItApplied) {
+  const Desk desk;
+  desk.put("short.yaml", kShortScenario);
+  ASSERT_EQ(desk.umbsim({"run", "short.yaml", "--out", "a"}).code, 0);
+  for (const std::string method : {"endpoint", "heading"}) {
+    const Outcome calibrate = desk.umbsim({"calibrate", "a", "--method", method, "--out", method});
+    ASSERT_EQ(calibrate.code, 0) << calibrate.err;
+    const json c = json_of(desk.home / method / "calibration.json");
+    EXPECT_EQ(c.at("calibration").at("applied"), method);
+    const std::size_t line = calibrate.out.rfind('\n', calibrate.out.find("  applied\n"));
+    EXPECT_EQ(calibrate.out.compare(line, method.size() + 3, "\n  " + method), 0) << calibrate.out;
+  }
+}
+
 TEST(CalibrateCommand, TheDefaultFolderIsNamedAfterTheRecording) {
   const Desk desk;
   desk.put("short.yaml", kShortScenario);
   ASSERT_EQ(desk.umbsim({"run", "short.yaml"}).code, 0);
   const Outcome calibrate = desk.umbsim({"calibrate", "results/short/"});
   ASSERT_EQ(calibrate.code, 0) << calibrate.err;
-  EXPECT_EQ(listing(desk.home / "results"), (std::set<std::string>{"short", "short-calibration"}));
+  EXPECT_EQ(listing(desk.home / "results"), (std::set<std::string>{"latest", "short", "short-calibration"}));
 }
 
 // calibration.yaml goes into a scenario as it is, and the squares then close.
@@ -92,6 +106,19 @@ INSTANTIATE_TEST_SUITE_P(Optiodom, RealRecording,
                                          RealRobot{"optiodom-square-1.7m", -15.3, -16.9, 3.05, -67.1, 79.9, -5.81,
                                                    104.4, 0.99910, 1.00778}),
                          [](const auto& param_info) { return "Square" + std::to_string(param_info.index + 1); });
+
+// What limits the answer without making it wrong is said, not refused.
+TEST(CalibrateCommand, SaysWhatLimitsItsAnswer) {
+  const Desk desk;
+  desk.put("short.yaml", kShortScenario);
+  ASSERT_EQ(desk.umbsim({"run", "short.yaml", "--set", "runs.per_direction=1", "--out", "a"}).code, 0);
+  const Outcome outcome = desk.umbsim({"calibrate", "a", "--out", "c"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  expect_says(outcome.out, {"Limit: no run was repeated"});
+  const json limits = json_of(desk.home / "c/calibration.json").at("limits");
+  ASSERT_EQ(limits.size(), 1u);
+  expect_says(limits[0].get<std::string>(), {"no run was repeated"});
+}
 
 // Recordings of another engine (with bumps, fewer runs, other shapes) are read or refused, never a crash.
 TEST(CalibrateCommand, ReadsOrRefusesEverySharedRecording) {

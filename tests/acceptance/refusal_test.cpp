@@ -136,7 +136,33 @@ TEST(Refusal, ABadSettingNamesNoLineOfTheFile) {
   const Desk desk;
   desk.put("short.yaml", kShortScenario);
   const Outcome outcome = desk.umbsim({"run", "short.yaml", "--set", "course.side_m=-1"});
-  expect_says(outcome.err, {"short.yaml: course.side_m"});
+  EXPECT_EQ(outcome.err,
+            "umbsim: --set course.side_m=-1: course.side_m: -1 is out of range (must be > 0 and <= 1000)\n");
+}
+
+TEST(Refusal, OfSeveralSettingsTheBadOneIsNamed) {
+  const Desk desk;
+  desk.put("short.yaml", kShortScenario);
+  desk.put("bad.yaml", std::string(kShortScenario) + "floor: {friction: -1}\n");
+  desk.put("sweep.yaml", "format: umbsim-sweep/1\nscenario: short.yaml\naxes: {seed: [1]}\n");
+  const std::vector<std::string> good{"--set", "course.laps=2", "--set", "runs.per_direction=1"};
+  const auto refusal = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), good.begin(), good.end());
+    words.insert(words.end(), more.begin(), more.end());
+    return desk.umbsim(words).err;
+  };
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"run", "short.yaml"}, {"explain", "short.yaml"}, {"sweep", "sweep.yaml"}}) {
+    expect_says(refusal(command, {"--set", "course.sidem=2", "--set", "seed=3"}),
+                {"umbsim: --set course.sidem=2: course.sidem: unknown key; did you mean 'side_m'?"});
+    expect_says(refusal(command, {"--set", "effects.wheelbas.relative=0"}),
+                {"umbsim: --set effects.wheelbas.relative=0: effects.wheelbas: ", "did you mean 'wheelbase'?"});
+  }
+  // A value of the file that a setting does not fit to: both are named. One that is bad anyway: the file alone.
+  expect_says(refusal({"run", "short.yaml"}, {"--set", "course.turn=arc", "--set", "course.turn_radius_m=1"}),
+              {"umbsim: --set course.turn_radius_m=1: short.yaml:6:9: course: turn_radius_m = 1 does not fit"});
+  EXPECT_EQ(refusal({"run", "bad.yaml"}, {}).rfind("umbsim: bad.yaml:12:19: floor.friction: -1", 0), 0u)
+      << refusal({"run", "bad.yaml"}, {});
 }
 
 TEST(Set, ReplacesAndAddsValues) {

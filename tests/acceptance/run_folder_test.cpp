@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/wrapped_text.h"
 #include "tests/acceptance/program.h"
 
 namespace umbsim::acceptance {
@@ -22,7 +23,7 @@ constexpr Shipped kShipped[] = {{"umbmark", 5, false, true},
                                 {"uncertainty", 10, false, false}};
 
 void add_recording(std::set<std::string>& names, const std::string& below, int per_direction, bool bumped) {
-  names.insert(below + "recording.yaml");
+  names.insert({below + "recording.yaml", below + "labmate.urdf"});
   for (const std::string kind : {"", "-bumped"}) {
     if (!kind.empty() && !bumped) continue;
     for (const std::string direction : {"cw", "ccw"}) {
@@ -62,7 +63,7 @@ TEST_P(ShippedScenario, WritesTheDocumentedFolder) {
   EXPECT_EQ(run.err, "") << "quiet in a pipe";
   expect_says(run.out, {"E_max,syst", "results/" + std::string(s.name) + "/report.html"});
   EXPECT_EQ(listing(desk.home), std::set<std::string>{"results"});
-  EXPECT_EQ(listing(desk.home / "results"), std::set<std::string>{s.name});
+  EXPECT_EQ(listing(desk.home / "results"), (std::set<std::string>{"latest", s.name}));
 
   const fs::path folder = desk.home / "results" / s.name;
   EXPECT_EQ(names_of(files_of(folder)), documented_files(s));
@@ -136,12 +137,34 @@ TEST(RunFolder, ResolvedScenarioGivesTheSameRunsAgain) {
   for (const auto& [name, text] : a) EXPECT_EQ(text == b[name], true) << name << " differs";
 }
 
+// Both forms are shown, that whose corrections were applied first.
+TEST(RunFolder, SaysWhichFormWasApplied) {
+  const Desk desk;
+  desk.put("short.yaml", kShortScenario);
+  for (const std::string method : {"endpoint", "heading", "none"}) {
+    const Outcome run = desk.umbsim({"run", "short.yaml", "--set", "calibration.method=" + method, "--out", method});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const json calibration = json_of(desk.home / method / "summary.json").at("calibration");
+    EXPECT_EQ(calibration.at("applied"), method);
+    const std::size_t endpoint = run.out.find("\n  endpoint "), heading = run.out.find("\n  heading ");
+    ASSERT_NE(std::max(endpoint, heading), std::string::npos) << run.out;
+    EXPECT_EQ(heading < endpoint, method == "heading") << run.out;
+    const std::size_t applied = run.out.find("  applied\n");
+    EXPECT_EQ(applied == std::string::npos, method == "none") << run.out;
+    if (method != "none") EXPECT_EQ(run.out.rfind('\n', applied), std::min(endpoint, heading)) << run.out;
+    for (const char* form : {"endpoint", "heading"}) {
+      const std::string trust = calibration.at(form).at("trust");
+      expect_says(run.out, {"\n" + wrapped(std::string("  ") + form + ": " + trust, 4)});
+    }
+  }
+}
+
 TEST(RunFolder, OneDirectionAloneWarns) {
   const Desk desk;
   desk.put("short.yaml", kShortScenario);
   const Outcome run = desk.umbsim({"run", "short.yaml", "--set", "runs.directions=[cw]", "--out", "a"});
   ASSERT_EQ(run.code, 0) << run.err;
-  expect_says(run.out, {"unfit for differential drives"});
+  expect_says(run.out, {"a one-way test is unfit for"});  // the line is broken after it
   const json summary = json_of(desk.home / "a/summary.json");
   EXPECT_FALSE(summary.contains("umbmark"));
   expect_says(summary.at("one_way").at("warning").get<std::string>(), {"unfit for differential drives"});

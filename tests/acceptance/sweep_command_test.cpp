@@ -166,7 +166,7 @@ TEST_F(SweepCommand, APointWithoutTheFigureDoesNotMeetIt) {
   expect_says(outcome.out, {"(2 of 4 points)", "calibration.method=none: no value"});
 }
 
-// A driver that steers by readings of 0.8 s ago swings until the state is non-finite.
+// A driver that steers by readings of 0.8 s ago cannot hold its course.
 const char* const kFailing =
     "format: umbsim-sweep/1\nscenario: tiny.yaml\nset: {course.side_m: 4}\n"
     "axes: {effects.encoder_sampling.interval_s: [0, 0.8]}\n";
@@ -175,8 +175,8 @@ TEST_F(SweepCommand, PointsThatCannotBeDrivenAreResults) {
   const Outcome outcome = sweep(kFailing, {"--junit", "junit.xml"});
   EXPECT_EQ(outcome.code, 3);
   expect_says(outcome.out,
-              {"1 of 2 points driven, 1 failed", "point 1, effects.encoder_sampling.interval_s=0.8: ", "non-finite"});
-  expect_says(text_of(desk_.home / "junit.xml"), {"errors=\"1\"", "<error message=", "non-finite"});
+              {"1 of 2 points driven, 1 failed", "point 1, effects.encoder_sampling.interval_s=0.8: ", "control loop"});
+  expect_says(text_of(desk_.home / "junit.xml"), {"errors=\"1\"", "<error message=", "control loop"});
   EXPECT_EQ(json_of(desk_.home / "s/sweep.json").at("failed").size(), 1u);
 }
 
@@ -190,7 +190,7 @@ TEST_F(SweepCommand, FailedPointsAreDrivenAgainOnRequest) {
   Database(desk_.home / "s/sweep.sqlite", Database::Mode::write)
       .run("UPDATE points SET error = 'old' WHERE status = 'failed'");
   expect_says(sweep(kFailing).out, {": old"});
-  expect_says(sweep(kFailing, {"--retry-failed"}).out, {"non-finite"});
+  expect_says(sweep(kFailing, {"--retry-failed"}).out, {"control loop"});
 }
 
 TEST_F(SweepCommand, ARunHasExpectationsToo) {

@@ -1,4 +1,5 @@
 // The whole diagnosis on small simulated campaigns whose effect is known.
+#include "calibration/intake/intake.h"
 #include "gap/diagnose.h"
 
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include <iostream>
 
 #include "gap/addition.h"
-#include "gap/check.h"
 #include "gap/diagnosis_json.h"
 #include "tests/gap/patient.h"
 
@@ -51,7 +51,7 @@ bool holds(const std::vector<std::string>& set, const std::string& name) {
 
 TEST(Diagnose, NothingWrongIsNone) {
   const Patient p(campaign({}, 11));
-  EXPECT_TRUE(check_recording(p.recording, ".").empty());
+  EXPECT_TRUE(intake::check_recording(p.recording, ".").empty());
   const Diagnosis d = p.diagnosed();
   std::cout << text(d) << "\n";
   EXPECT_FALSE(d.detected);

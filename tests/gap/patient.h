@@ -17,7 +17,7 @@ struct Patient {
         replay(with_effects(scenario_of(recording, "."), believed), recording),
         model(recording, simulator(replay), gap::Scatter{}) {}
   gap::Diagnosis diagnosed(const std::set<std::string>& excluded = {}) const {
-    return gap::diagnose(model, excluded, gap::Thresholds{}, [](const std::string&) {});
+    return gap::diagnose(model, excluded, gap::Thresholds{}, [](const std::string&, double) {});
   }
 
   static Scenario with_effects(Scenario s, const std::vector<Effect>& effects) {

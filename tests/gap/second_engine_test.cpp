@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "gap/check.h"
+#include "calibration/intake/intake.h"
 #include "gap/diagnosis_json.h"
 #include "tests/gap/patient.h"
 #include "tests/gap/recordings.h"
@@ -60,10 +60,10 @@ TEST_P(SecondEngine, TheCauseIsNamed) {
       std::filesystem::path(UMBSIM_SHARED_DIR) / "recordings/second-engine" / label.folder;
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
   const Recording recording = read_recording(folder);
-  check_recording(recording, folder.string());
+  intake::check_recording(recording, folder.string());
   const Replay replay(scenario_of(recording, folder.string()), recording);
   const Model model(recording, testing::simulator(replay), Scatter{});
-  const Diagnosis d = diagnose(model, {}, Thresholds{}, [](const std::string&) {});
+  const Diagnosis d = diagnose(model, {}, Thresholds{}, [](const std::string&, double) {});
   const Cause& first = d.causes.front();
   std::string said = fmt::format("{}: {} (set {})", label.folder, first.name, fmt::join(d.set, ", "));
   double error = 0;

@@ -4,8 +4,9 @@
 #include <filesystem>
 #include <iostream>
 
-#include "gap/check.h"
+#include "calibration/intake/intake.h"
 #include "gap/clock.h"
+#include "gap/closure.h"
 #include "gap/diagnosis_json.h"
 #include "gap/drivable.h"
 #include "tests/gap/patient.h"
@@ -61,12 +62,36 @@ TEST(SmallRobot, WhatNoStepDrivesIsLeftOut) {
   EXPECT_TRUE(drivable(p.model, {heavy}).empty());
 }
 
+// A fit's next step may lead to where the robot tips over: it is taken back, and the fit goes on from where it stands.
+TEST(SmallRobot, AStepTooFarIsTakenBack) {
+  constexpr double kStandsUpTo = 0.008, kTruth = 0.01;
+  const Recording recording = optiodom_squares({effect("wheelbase", {{"relative", kTruth}})});
+  const Replay replay(scenario_of(recording, "."), recording);
+  Simulator narrow = testing::simulator(replay);
+  narrow.ticks = [wide = narrow.ticks](std::size_t run, const std::vector<Effect>& effects, double roughness) {
+    for (const Effect& e : effects) {
+      if (e.info->name == "wheelbase" && e.values.numbers[0] > kStandsUpTo) throw RunError("it tips over");
+    }
+    return wide(run, effects, roughness);
+  };
+  const Model model(recording, narrow, Scatter{});
+  std::vector<Family> wheelbase = plain_families(0.02, 2000);
+  std::erase_if(wheelbase, [](const Family& f) { return f.effect != "wheelbase"; });
+  ASSERT_EQ(wheelbase.size(), 1u);
+  EXPECT_THROW(model.density_at(wheelbase, Eigen::VectorXd::Constant(1, kTruth)), RunError) << "else this shows nothing";
+  const Fit fit = model.fit(wheelbase);
+  std::cout << "stands up to " << kStandsUpTo << ", fitted " << fit.p[0] << "\n";
+  EXPECT_GT(fit.p[0], 0.5 * kStandsUpTo);
+  EXPECT_LE(fit.p[0], kStandsUpTo);
+  EXPECT_NO_THROW(held_out_closure(model, fit));
+}
+
 // A real robot of that kind, measured by motion capture.
 TEST(SmallRobot, ARealOneIsDiagnosed) {
   const std::filesystem::path folder = std::filesystem::path(UMBSIM_SHARED_DIR) / "recordings/optiodom-square-1.7m";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
   const Recording recording = read_recording(folder);
-  check_recording(recording, folder.string());
+  intake::check_recording(recording, folder.string());
   std::vector<std::string> limits;
   const Patient p(followed_through(recording, limits));
   const Diagnosis d = p.diagnosed();

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/yaml_reader.h"
 #include "folder.h"
+#include "recording/names.h"
 
 namespace umbsim {
 namespace {
@@ -121,6 +122,39 @@ TEST(Recording, WrittenAgainTheBytesAreTheSame) {
     EXPECT_FALSE(folder.get("first/" + name).empty()) << name;
     EXPECT_EQ(folder.get("first/" + name), folder.get("second/" + name)) << name;
   }
+}
+
+// The robot goes where the recording goes.
+TEST(Recording, CarriesItsRobot) {
+  const Folder folder;
+  for (const char* name : {"first", "second"}) std::filesystem::create_directory(folder.path() / name);
+  Recording recording = full_recording();
+  recording.robot.urdf_text = "<robot name=\"r\"/>\n";
+  recording.robot.left_joint = "left wheel: #1";
+  recording.robot.right_joint = "right_wheel";
+  write_recording(recording, folder.path() / "first");
+  const Recording read = read_recording(folder.path() / "first");
+  EXPECT_EQ(read.robot.urdf_text, recording.robot.urdf_text);
+  EXPECT_EQ(read.robot.left_joint, recording.robot.left_joint);
+  EXPECT_EQ(read.robot.right_joint, recording.robot.right_joint);
+  write_recording(read, folder.path() / "second");
+  for (const char* name : {"labmate.urdf", "recording.yaml"})
+    EXPECT_EQ(folder.get(std::string("first/") + name), folder.get(std::string("second/") + name)) << name;
+  EXPECT_EQ(folder.get("first/labmate.urdf"), recording.robot.urdf_text);
+}
+
+// An older recording names a file of robots/, which is not its own.
+TEST(Recording, WithoutItsRobotNoneIsWritten) {
+  const Folder folder;
+  write_recording(full_recording(), folder.path());
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "labmate.urdf"));
+  EXPECT_TRUE(read_recording(folder.path()).robot.urdf_text.empty());
+}
+
+TEST(Recording, ACopyOfARobotGetsANameThatNothingElseHas) {
+  EXPECT_EQ(urdf_copy_name("/a/b/labmate.urdf"), "labmate.urdf");
+  EXPECT_EQ(urdf_copy_name("recording.yaml"), "recording.yaml.urdf");
+  EXPECT_EQ(urdf_copy_name("my robot\\2: \xc3\xbc.urdf"), "my_robot_2____.urdf");
 }
 
 TEST(Recording, FilesLookLikeTheFormat) {

@@ -13,6 +13,7 @@ at_least 'class="pt [a-z]+ before"' "$runs" "end-point errors before"
 twins=$(in_data '"after":[[')
 at_least '<path class="twin"' "$twins" "the twin's paths"
 at_least 'class="pt [a-z]+ after"' "$twins" "end-point errors after"
+at_least '<p class="headline">[A-Z][^<]*\.' 1 "verdict"
 at_least '<td class="bar-cell">' 1 "bars of probability"
 [ "$(in_data '"place_m":')" -eq 0 ] || at_least '<circle class="place"' "$runs" "the place"
 [ "$failures" -eq 0 ] || exit 1

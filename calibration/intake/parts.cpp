@@ -1,11 +1,11 @@
-#include "gap/check_parts.h"
+#include "calibration/intake/parts.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
-namespace umbsim::gap {
+namespace umbsim::intake {
 namespace {
 
 constexpr double kNear = 0.25;  // log of how far a scale may be from one that is suspected
@@ -98,4 +98,4 @@ double Agreement::score() const {
   return product / std::sqrt(counted2 * tracked2) - 0.1 * std::min(scale, 3.0);
 }
 
-}  // namespace umbsim::gap
+}  // namespace umbsim::intake

@@ -1,18 +1,19 @@
-#include "gap/check.h"
+#include "calibration/intake/intake.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
-#include <fmt/format.h>
+#include "calibration/intake/parts.h"
+#include "calibration/intake/refusal.h"
+#include "calibration/intake/samples.h"
+#include "calibration/intake/units.h"
 
-#include "gap/check_parts.h"
-#include "gap/check_samples.h"
-#include "gap/check_units.h"
-#include "gap/refusal.h"
-
-namespace umbsim::gap {
+namespace umbsim::intake {
 namespace {
 
 constexpr double kUncovered = 0.1;    // of a run's counts, which the truth may miss without a word
@@ -99,21 +100,6 @@ void check_run(const Recording& recording, const RecordedRun& run, const std::st
 
 }  // namespace
 
-Recording with_moments_between(Recording recording) {
-  if (recording.truth_kind != "endpoints") return recording;
-  constexpr double kStep_s = 0.1;
-  for (RecordedRun& run : recording.runs) {
-    if (run.truth.size() != 2) continue;
-    const TruthSample first = run.truth.front();
-    const TruthSample last = run.truth.back();
-    run.truth = {first};
-    for (double t = first.time_s + kStep_s; t < last.time_s - kStep_s / 2; t += kStep_s)
-      run.truth.push_back({t, first.X_WB});
-    run.truth.push_back(last);
-  }
-  return recording;
-}
-
 std::vector<std::string> check_recording(const Recording& recording, const std::string& directory) {
   for (const RecordedRun& run : recording.runs) check_run(recording, run, directory);
   std::vector<std::string> limits;
@@ -149,4 +135,10 @@ std::vector<std::string> check_recording(const Recording& recording, const std::
   return limits;
 }
 
-}  // namespace umbsim::gap
+Intake take_in(const std::string& directory) {
+  Recording recording = read_recording(directory);
+  std::vector<std::string> limits = check_recording(recording, directory);
+  return {std::move(recording), std::move(limits)};
+}
+
+}  // namespace umbsim::intake

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gap/check_parts.h"
-#include "gap/check_units.h"
-#include "gap/refusal.h"
+#include "calibration/intake/parts.h"
+#include "calibration/intake/refusal.h"
+#include "calibration/intake/units.h"
 
-namespace umbsim::gap {
+namespace umbsim::intake {
 namespace {
 
 constexpr double kWrapped = 3;  // full turns that a heading at the end may lack
@@ -91,4 +91,4 @@ void check_end_points(const std::string& directory, const RecordedRun& run, cons
   }
 }
 
-}  // namespace umbsim::gap
+}  // namespace umbsim::intake

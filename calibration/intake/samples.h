@@ -4,7 +4,7 @@
 
 #include "recording/recording.h"
 
-namespace umbsim::gap {
+namespace umbsim::intake {
 
 /// Rows that do not come as often as encoders.rate_hz says, in seconds that are none. Throws InputError.
 void check_times(const std::string& directory, const RecordedRun& run, double rate_hz);
@@ -20,4 +20,4 @@ void check_truth(const std::string& directory, const RecordedRun& run, const Rec
 void check_places(const std::string& directory, const RecordedRun& run, const RecordedRobot& robot,
                   double position_sd_m);
 
-}  // namespace umbsim::gap
+}  // namespace umbsim::intake

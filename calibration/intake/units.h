@@ -4,7 +4,7 @@
 
 #include "recording/recording.h"
 
-namespace umbsim::gap {
+namespace umbsim::intake {
 
 /// Wheels against tracker, for a recording with tracks: nothing that moves, one wheel's counter dead, wheels exchanged
 /// or reversed, a truth that is mirrored, counts, lengths and angles in other units. Throws InputError.
@@ -19,4 +19,4 @@ void check_commands(const std::string& directory, const RecordedRun& run, const 
 /// The run against what recording.yaml says of it: direction, side and speed. Throws InputError.
 void check_path(const std::string& directory, const RecordedRun& run, const Recording& recording);
 
-}  // namespace umbsim::gap
+}  // namespace umbsim::intake

@@ -6,7 +6,7 @@
 
 #include "recording/recording.h"
 
-namespace umbsim::gap {
+namespace umbsim::intake {
 
 /// What the checks of a recording share: when a scale is wrong, and what it then may be.
 constexpr double kPiece_s = 0.5;    ///< of a run: noise of single readings does not add up
@@ -65,4 +65,4 @@ struct Agreement {
   double score() const;
 };
 
-}  // namespace umbsim::gap
+}  // namespace umbsim::intake

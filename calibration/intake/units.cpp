@@ -1,14 +1,14 @@
-#include "gap/check_units.h"
+#include "calibration/intake/units.h"
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <vector>
 
-#include "gap/check_parts.h"
-#include "gap/refusal.h"
+#include "calibration/intake/parts.h"
+#include "calibration/intake/refusal.h"
 
-namespace umbsim::gap {
+namespace umbsim::intake {
 namespace {
 
 constexpr double kBetterWiring = 0.25;  // of correlation and scale, by which another wiring must be likelier
@@ -171,4 +171,4 @@ void check_scale(const std::string& directory, const RecordedRun& run, const Rec
   }
 }
 
-}  // namespace umbsim::gap
+}  // namespace umbsim::intake

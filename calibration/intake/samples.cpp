@@ -1,14 +1,14 @@
-#include "gap/check_samples.h"
+#include "calibration/intake/samples.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
-#include "gap/check_parts.h"
-#include "gap/refusal.h"
+#include "calibration/intake/parts.h"
+#include "calibration/intake/refusal.h"
 
-namespace umbsim::gap {
+namespace umbsim::intake {
 namespace {
 
 constexpr double kRateFactor = 5;  // rows so much rarer or denser than the rate says have other units
@@ -218,4 +218,4 @@ void check_places(const std::string& directory, const RecordedRun& run, const Re
   check_track_jumps(directory, run, robot, position_sd_m);
 }
 
-}  // namespace umbsim::gap
+}  // namespace umbsim::intake

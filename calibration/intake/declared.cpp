@@ -2,12 +2,12 @@
 #include <cmath>
 #include <optional>
 
-#include "gap/check_parts.h"
-#include "gap/check_units.h"
-#include "gap/refusal.h"
+#include "calibration/intake/parts.h"
+#include "calibration/intake/refusal.h"
+#include "calibration/intake/units.h"
 #include "odometry/dead_reckoning.h"
 
-namespace umbsim::gap {
+namespace umbsim::intake {
 namespace {
 
 constexpr double kFarOff = 5;  // a speed, a side: wrong units, not another robot
@@ -143,4 +143,4 @@ void check_path(const std::string& directory, const RecordedRun& run, const Reco
   }
 }
 
-}  // namespace umbsim::gap
+}  // namespace umbsim::intake
