@@ -65,7 +65,8 @@ gap::Simulator gap_simulator(const Replay& replay) {
           },
           [&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.counts(run, effects); },
           [&replay](const std::vector<Effect>& effects) { return replay.habits(effects); },
-          [&replay](const std::vector<Effect>& effects) { return replay.scrubs(effects); }, replay.wheel_width_m()};
+          [&replay](const std::vector<Effect>& effects) { return replay.scrubs(effects); }, replay.wheel_width_m(),
+          replay.nominal().total_mass_kg()};
 }
 
 gap::Simulator cached_gap_simulator(const Replay& replay, bool no_cache) {

@@ -63,6 +63,6 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution,
 Family bump_family(double x_m, double y_m, double heading_rad);
 Family lift_family(double x_m, double y_m);
 Family patch_family(double x_m, double y_m);
-Family push_family(const std::string& run, int leg, double seconds_into_leg);
+Family push_family(const std::string& run, int leg, double seconds_into_leg, double robot_kg);
 
 }  // namespace umbsim::gap

@@ -76,14 +76,16 @@ Family patch_family(double x_m, double y_m) {
                 x_m, y_m);
 }
 
-Family push_family(const std::string& run, int leg, double seconds_into_leg) {
+Family push_family(const std::string& run, int leg, double seconds_into_leg, double robot_kg) {
   const EffectInfo& info = find_effect("push");
   const EffectValues base = neutral_effect(info).values;
   const std::size_t l = index_of(info, "leg");
   const std::size_t t = index_of(info, "seconds_into_leg");
   const std::size_t i = index_of(info, "impulse_newton_seconds");
   Family family{"push", run,
-                {{"impulse_newton_seconds", 30, 1, 60, -1000, 1000}, {"later s", 0, 0.02, 0.2, -0.6, 0.6}},
+                {{"impulse_newton_seconds", 0.75 * robot_kg, 0.025 * robot_kg, 1.5 * robot_kg, -25 * robot_kg,
+                  25 * robot_kg},
+                 {"later s", 0, 0.02, 0.2, -0.6, 0.6}},
                 {}, {}, false, kMoments};
   family.values = [=](const Eigen::VectorXd& p) {
     EffectValues values = base;

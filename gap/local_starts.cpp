@@ -75,6 +75,8 @@ Starts patch_starts(double grips, bool closely) {
   return starts;
 }
 
-Starts push_starts() { return all_of({both_ways(geometric(2.5, 170, 1.1)), {0, 0.05, 0.1}}); }
+Starts push_starts(double robot_kg) {
+  return all_of({both_ways(geometric(0.06 * robot_kg, 4 * robot_kg, 1.1)), {0, 0.05, 0.1}});
+}
 
 }  // namespace umbsim::gap

@@ -20,7 +20,8 @@ Starts lift_starts(bool closely);
 /// per cent of it decide as much as of a length.
 Starts patch_starts(double grips, bool closely);
 
-/// Impulse and delay. Tyres hold until a push is stronger than they are: a little more makes all the difference.
-Starts push_starts();
+/// Impulse, in proportion to the robot's mass, and delay. Tyres hold until a push is stronger than they are: a little
+/// more makes all the difference.
+Starts push_starts(double robot_kg);
 
 }  // namespace umbsim::gap

@@ -75,6 +75,7 @@ class Model {
   const Habits& habits() const { return measured_.habits; }
   /// Of the drive wheels; 0: not known.
   double wheel_width_m() const { return simulator_.wheel_width_m; }
+  double mass_kg() const { return simulator_.mass_kg; }
   int nuisances() const { return int(nuisance_sd().size()); }
   /// Of another engine's recording, and what else it may be (Nuisances).
   const Eigen::VectorXd& nuisance_sd() const { return nuisances_.shared_sds.front(); }

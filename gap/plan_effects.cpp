@@ -79,7 +79,7 @@ std::vector<PlannedFamily> planned_families(const Model& model, const std::set<s
     all.push_back(planned(std::move(f)));
   }
   const OnLeg push = on_leg(model, 2, 0.5);
-  all.push_back(planned(push_family(recording.runs[0].id, push.leg, push.seconds_into_leg)));
+  all.push_back(planned(push_family(recording.runs[0].id, push.leg, push.seconds_into_leg, model.mass_kg())));
   all.back().in_first_run = true;
   std::erase_if(all, [&](const PlannedFamily& p) { return wanted.count(p.family.effect) == 0; });
   return all;

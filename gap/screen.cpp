@@ -148,8 +148,9 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
   const RecordedRun& run = model_.recording().runs[k.run];
   const auto [leg, seconds] = leg_at(model_.stretches(k.run), run.truth[k.sample].time_s);
   if (leg == 0) return;
-  offer(push_family(run.id, leg, std::max(0.0, std::round(seconds * 10 - 1) / 10)), push_starts(), {2, 0.05}, 2,
-        k.gain);
+  const double kg = model_.mass_kg();
+  offer(push_family(run.id, leg, std::max(0.0, std::round(seconds * 10 - 1) / 10), kg), push_starts(kg),
+        {0.05 * kg, 0.05}, 2, k.gain);
 }
 
 std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {

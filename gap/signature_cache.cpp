@@ -134,6 +134,7 @@ Simulator cached(Simulator simulator, const Recording& recording, const std::str
   const auto scrubs = simulator.scrubs;
   const bool commands = bool(simulator.commands);
   const double wheel_width_m = simulator.wheel_width_m;
+  const double mass_kg = simulator.mass_kg;
   const auto store = std::make_shared<Store>(std::move(simulator), recording, identity, choice);
   Simulator result;
   result.ticks = [store](std::size_t run, const std::vector<Effect>& e, double roughness_m_per_sqrt_m) {
@@ -147,6 +148,7 @@ Simulator cached(Simulator simulator, const Recording& recording, const std::str
   result.habits = habits;
   result.scrubs = scrubs;
   result.wheel_width_m = wheel_width_m;
+  result.mass_kg = mass_kg;
   return result;
 }
 

@@ -28,6 +28,7 @@ struct Simulator {
   /// Whether wheels scrub under effects, so that the floor's roughness moves their mean path; none: never.
   std::function<bool(const std::vector<Effect>&)> scrubs = {};
   double wheel_width_m = 0;  ///< of the drive wheels, as the robot's description says; 0: not known
+  double mass_kg = 0;        ///< of the robot, to which pushes are in proportion
 };
 
 }  // namespace umbsim::gap

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -130,6 +131,11 @@ inline void expect_says(const std::string& message, const std::vector<std::strin
   for (const std::string& part : parts) {
     EXPECT_NE(message.find(part), std::string::npos) << "'" << part << "' is missing in: " << message;
   }
+}
+
+/// What was wrapped for the terminal, in whole lines again.
+inline std::string unwrapped(const std::string& text) {
+  return std::regex_replace(text, std::regex("\n +"), " ");
 }
 
 }  // namespace umbsim::acceptance

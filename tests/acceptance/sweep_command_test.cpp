@@ -120,9 +120,9 @@ const std::string kExpect =
 TEST_F(SweepCommand, UnmetExpectationsAreListed) {
   const Outcome outcome = sweep(tiny_sweep(3, kExpect), {"--junit", "junit.xml"});
   EXPECT_EQ(outcome.code, 1);
-  expect_says(outcome.out,
+  expect_says(unwrapped(outcome.out),
               {"met      recovery.e_b_error: abs_max 1  (6 points, worst",
-               "NOT MET  umbmark.e_max_syst_m: max 0.005, where calibration.method = heading  (2 of 3 points)",
+               "NOT MET  umbmark.e_max_syst_m: max 0.005, where calibration.method = heading (2 of 3 points)",
                "point 1, effects.wheelbase.relative=-0.02, calibration.method=heading: ",
                "point 5, effects.wheelbase.relative=0.02, calibration.method=heading: ",
                "met      umbmark.e_max_syst_m: max 0.5, quantile 0.9"});
@@ -163,7 +163,7 @@ TEST_F(SweepCommand, APointWithoutTheFigureDoesNotMeetIt) {
   const Outcome outcome = sweep(tiny_sweep(2, "expect: {recovery.e_b_error: {abs_max: 1}}\n"),
                                 {"--axis", "calibration.method=[none, heading]"});
   EXPECT_EQ(outcome.code, 1);
-  expect_says(outcome.out, {"(2 of 4 points)", "calibration.method=none: no value"});
+  expect_says(unwrapped(outcome.out), {"(2 of 4 points)", "calibration.method=none: no value"});
 }
 
 // A driver that steers by readings of 0.8 s ago cannot hold its course.
@@ -174,7 +174,7 @@ const char* const kFailing =
 TEST_F(SweepCommand, PointsThatCannotBeDrivenAreResults) {
   const Outcome outcome = sweep(kFailing, {"--junit", "junit.xml"});
   EXPECT_EQ(outcome.code, 3);
-  expect_says(outcome.out,
+  expect_says(unwrapped(outcome.out),
               {"1 of 2 points driven, 1 failed", "point 1, effects.encoder_sampling.interval_s=0.8: ", "control loop"});
   expect_says(text_of(desk_.home / "junit.xml"), {"errors=\"1\"", "<error message=", "control loop"});
   EXPECT_EQ(json_of(desk_.home / "s/sweep.json").at("failed").size(), 1u);
@@ -189,8 +189,8 @@ TEST_F(SweepCommand, FailedPointsAreDrivenAgainOnRequest) {
   ASSERT_EQ(sweep(kFailing).code, 3);
   Database(desk_.home / "s/sweep.sqlite", Database::Mode::write)
       .run("UPDATE points SET error = 'old' WHERE status = 'failed'");
-  expect_says(sweep(kFailing).out, {": old"});
-  expect_says(sweep(kFailing, {"--retry-failed"}).out, {"control loop"});
+  expect_says(unwrapped(sweep(kFailing).out), {": old"});
+  expect_says(unwrapped(sweep(kFailing, {"--retry-failed"}).out), {"control loop"});
 }
 
 TEST_F(SweepCommand, ARunHasExpectationsToo) {

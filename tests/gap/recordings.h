@@ -88,7 +88,8 @@ inline gap::Simulator simulator(const Replay& replay) {
           },
           [&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.counts(run, effects); },
           [&replay](const std::vector<Effect>& effects) { return replay.habits(effects); },
-          [&replay](const std::vector<Effect>& effects) { return replay.scrubs(effects); }, replay.wheel_width_m()};
+          [&replay](const std::vector<Effect>& effects) { return replay.scrubs(effects); }, replay.wheel_width_m(),
+          replay.nominal().total_mass_kg()};
 }
 
 }  // namespace umbsim::testing

@@ -157,7 +157,7 @@ TEST(Verdict, APlaceHasItsWheel) {
 }
 
 TEST(Verdict, APushHasItsRunAndLeg) {
-  const std::string text = said(found({cause({push_family("cw-1", 2, 6)}, {-30, 0.001}, 0.1)}));
+  const std::string text = said(found({cause({push_family("cw-1", 2, 6, 40)}, {-30, 0.001}, 0.1)}));
   EXPECT_EQ(text.find("Something pushed the robot to the right with 30"), 0u) << text;
   expect_in(text, "into leg 2 of run cw-1.");
 }
