@@ -8,6 +8,8 @@ namespace umbsim::worlds {
 EngineKind our_engine();
 /// A vehicle model of the plane (planar/robot.h).
 EngineKind planar_engine();
+/// Bullet's own multibody world (bullet/robot.h).
+EngineKind bullet_engine();
 
 #ifdef UMBSIM_WORLDS_MUJOCO
 /// MuJoCo (mujoco/robot.h).

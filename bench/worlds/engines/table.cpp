@@ -13,6 +13,7 @@ const std::vector<EngineKind>& engines() {
   static const std::vector<EngineKind> table = {
       our_engine(),
       planar_engine(),
+      bullet_engine(),
 #ifdef UMBSIM_WORLDS_MUJOCO
       mujoco_engine(),
 #endif
@@ -49,6 +50,15 @@ EngineOptions draw_options(const EngineKind& kind, RandomStream& random) {
     }
   }
   return drawn;
+}
+
+EngineOptions middle_options(const EngineKind& kind) {
+  EngineOptions options;
+  for (const EngineOption& o : kind.options) {
+    if (o.draw == EngineOption::Draw::choice) options.choices[o.name] = o.choices.front();
+    else options.numbers[o.name] = o.draw == EngineOption::Draw::uniform ? (o.min + o.max) / 2 : std::sqrt(o.min * o.max);
+  }
+  return options;
 }
 
 }  // namespace umbsim::worlds

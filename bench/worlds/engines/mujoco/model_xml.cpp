@@ -12,6 +12,7 @@ namespace {
 constexpr double kGravity_mps2 = 9.81;
 constexpr double kPlayDamping_share = 0.002;  // grease, over the servo's gain: a wheel in its play comes to rest
 constexpr double kThinnest_m = 0.002;         // of a wheel that has no patch
+constexpr double kLeastFriction = 1e-3;       // contacts of less give way like mud: their stiffness goes with its square
 
 std::string text(const Eigen::Vector3d& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
 
@@ -137,7 +138,8 @@ std::string head(const Rig& rig, const MujocoOptions& o) {
 TyreFriction tyre_friction(const Wheel& wheel, const MujocoOptions& o, double friction) {
   const double patch_m = has_edges(o) ? 0 : wheel.patch_width_m / 4;
   const double torsion_m = (o.condim >= 4 ? o.torsion_m : 0) + patch_m;
-  return {friction, friction * torsion_m, o.condim >= 6 ? friction * o.rolling_m : 0};
+  const double sliding = std::max(friction, kLeastFriction);
+  return {sliding, sliding * torsion_m, o.condim >= 6 ? sliding * o.rolling_m : 0};
 }
 
 std::string model_xml(const Rig& rig, const MujocoOptions& o, const Pose2& X_WB) {

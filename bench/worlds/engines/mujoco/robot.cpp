@@ -15,7 +15,6 @@ namespace umbsim::worlds::mujoco {
 namespace {
 
 constexpr double kSettle_s = 0.5;
-constexpr double kLeastFriction = 1e-5;  // MuJoCo's own
 
 std::mutex loading;  // mj_loadXML keeps its last model
 
@@ -36,16 +35,11 @@ mjModel* load(const std::string& xml) {
 }  // namespace
 
 MujocoRobot::MujocoRobot(const Rig& rig, const MujocoOptions& options, const Pose2& X_WB)
-    : rig_(rig), options_(options), drift_{rig.floor.drift_x, rig.floor.drift_y}, heading_rad_(X_WB.theta_rad) {
-  model_ = load(model_xml(rig, options, X_WB));
-  data_ = mj_makeData(model_);
+    : rig_(rig), options_(options), drift_{rig.floor.drift_x, rig.floor.drift_y}, heading_rad_(X_WB.theta_rad),
+      owned_model_(load(model_xml(rig, options, X_WB)), mj_deleteModel),
+      owned_data_(mj_makeData(owned_model_.get()), mj_deleteData), model_(owned_model_.get()), data_(owned_data_.get()) {
   find_parts();
   settle(X_WB);
-}
-
-MujocoRobot::~MujocoRobot() {
-  mj_deleteData(data_);
-  mj_deleteModel(model_);
 }
 
 void MujocoRobot::find_parts() {
@@ -177,9 +171,9 @@ void MujocoRobot::grip() {
     const mjtNum* at = data_->geom_xpos + 3 * wheels_[i].geom;
     const TyreFriction f = tyre_friction(rig_.robot.wheels[i], options_, friction_at(rig_.floor, at[0], at[1]));
     mjtNum* friction = model_->geom_friction + 3 * wheels_[i].geom;
-    friction[0] = std::max(f.sliding, kLeastFriction);
-    friction[1] = std::max(f.torsion_m, kLeastFriction);
-    friction[2] = std::max(f.rolling_m, kLeastFriction);
+    friction[0] = f.sliding;
+    friction[1] = f.torsion_m;
+    friction[2] = f.rolling_m;
   }
 }
 

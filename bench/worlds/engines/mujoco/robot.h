@@ -19,7 +19,6 @@ class MujocoRobot {
  public:
   /// Throws RunError if MuJoCo refuses the model or the robot does not stand.
   MujocoRobot(const Rig& rig, const MujocoOptions& options, const Pose2& X_WB);
-  ~MujocoRobot();
   MujocoRobot(const MujocoRobot&) = delete;
   MujocoRobot& operator=(const MujocoRobot&) = delete;
 
@@ -62,8 +61,6 @@ class MujocoRobot {
 
   Rig rig_;
   MujocoOptions options_;
-  mjModel* model_ = nullptr;
-  mjData* data_ = nullptr;
   int base_ = 0;
   std::array<WheelPart, 2> wheels_;
   std::vector<std::array<int, 2>> supports_;  // geom and mocap body, on uneven floors
@@ -71,6 +68,10 @@ class MujocoRobot {
   std::array<double, 2> drift_{};
   double heading_rad_ = 0;
   std::int64_t steps_ = 0;
+  std::unique_ptr<mjModel, void (*)(mjModel*)> owned_model_;
+  std::unique_ptr<mjData, void (*)(mjData*)> owned_data_;
+  mjModel* model_;
+  mjData* data_;
 };
 
 }  // namespace umbsim::worlds::mujoco
