@@ -4,6 +4,8 @@
 
 namespace umbsim::worlds {
 
+void add_check_command(CLI::App& app);
+void add_differences_command(CLI::App& app);
 void add_draw_command(CLI::App& app);
 void add_inject_command(CLI::App& app);
 void add_score_command(CLI::App& app);

@@ -11,6 +11,8 @@ int main(int argc, char** argv) {
   CLI::App app("Worlds for the gap diagnosis: draws recordings with sealed answers, spoils real ones, scores");
   app.require_subcommand(1);
   umbsim::worlds::add_draw_command(app);
+  umbsim::worlds::add_check_command(app);
+  umbsim::worlds::add_differences_command(app);
   umbsim::worlds::add_inject_command(app);
   umbsim::worlds::add_score_command(app);
   umbsim::worlds::add_table_command(app);

@@ -71,4 +71,17 @@ WorldScale::Seen WorldScale::severity(const Faults& faults) const {
   return seen;
 }
 
+SignalTrack WorldScale::change(const Faults& faults, Signal signal) const {
+  Drive drive = clean();
+  drive.faults = faults;
+  SignalTrack track = signal_track(record_exactly(world_, drive_world(world_, drive), kFiner), signal);
+  const SignalTrack& nominal = nominal_[std::size_t(signal)];
+  for (std::size_t run = 0; run < track.size(); ++run) {
+    for (std::size_t k = 0; k < track[run].size(); ++k) {
+      for (std::size_t i = 0; i < 3; ++i) track[run][k][i] -= nominal[run][k][i];
+    }
+  }
+  return track;
+}
+
 }  // namespace umbsim::worlds

@@ -18,6 +18,10 @@ class WorldScale {
   };
   /// Infinite if the robot cannot be driven so.
   Seen severity(const Faults& faults) const;
+  /// What they change in one signal. Throws as drive_world does.
+  SignalTrack change(const Faults& faults, Signal signal) const;
+  /// Sizes of the noise, by signal.
+  const SignalSize& noise(Signal signal) const { return noise_[std::size_t(signal)]; }
   /// How far the world itself is from what its counts say, in noise floors.
   double of_the_world() const { return of_the_world_; }
   const DrivenWorld& nominal() const { return nominal_run_; }
