@@ -125,16 +125,19 @@ void World::State::move_shafts(double step_s, const std::array<double, 2>& targe
   }
 }
 
-// Set-points at `part` of the control period: the ramp to the new command, behind gain, deadband and lag.
+// Set-points of the step that ends at `part` of the control period: the ramp to the new command, behind gain, deadband
+// and lag. A lag's exact answer to what is wanted, in the mean over the step: a lag shorter than the step is one, too.
 std::array<double, 2> World::State::follow_commands(double step_s, double part) {
+  std::array<double, 2> mean_radps;
   for (int i = 0; i < 2; ++i) {
     const Motor& m = drivetrain.motor[i];
     double wanted = m.gain * ((1 - part) * last_command_radps[i] + part * command_radps[i]);
     if (std::abs(wanted) < m.deadband_radps) wanted = 0;
     const double follow = m.lag_s > 0 ? 1 - std::exp(-step_s / m.lag_s) : 1;
+    mean_radps[i] = wanted + (set_point_radps[i] - wanted) * follow * m.lag_s / step_s;
     set_point_radps[i] += follow * (wanted - set_point_radps[i]);
   }
-  return set_point_radps;
+  return mean_radps;
 }
 
 void World::State::add_pushes(double step_s, DofVector& u) {

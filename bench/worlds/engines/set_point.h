@@ -17,7 +17,9 @@ class SetPoint {
     double wanted = motor_.gain * ((1 - part) * last_command_radps_ + part * command_radps);
     if (std::abs(wanted) < motor_.deadband_radps) wanted = 0;
     const double follow = motor_.lag_s > 0 ? 1 - std::exp(-step_s / motor_.lag_s) : 1;
-    return radps_ += follow * (wanted - radps_);
+    const double mean_radps = wanted + (radps_ - wanted) * follow * motor_.lag_s / step_s;
+    radps_ += follow * (wanted - radps_);
+    return mean_radps;
   }
   /// The command has arrived: the next line starts there.
   void arrive(double command_radps) { last_command_radps_ = command_radps; }
