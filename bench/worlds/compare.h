@@ -11,9 +11,9 @@ namespace umbsim::worlds {
 /// One effect in one engine beside the same effect in this simulator.
 struct Compared {
   std::string engine;
-  double ratio = 0;  ///< of its signature, projected on this simulator's
-  double alike = 0;  ///< cosine between both signatures; the signal's noise gives the scale of x, y and heading
-  std::string error; ///< why the engine could not drive it
+  double ratio = 0;   ///< of its signature, projected on this simulator's
+  double alike = 0;   ///< cosine between both signatures; the signal's noise gives the scale of x, y and heading
+  std::string error;  ///< why the engine could not drive it
 };
 
 struct ComparedEffect {

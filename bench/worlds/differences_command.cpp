@@ -53,7 +53,8 @@ void print_conditions(const std::vector<Residuals>& of) {
     row(name(size), [&](const PartResidual& r) { return turns(r) && r.condition.size == size; });
   }
   for (const double speed : {0.2, 0.6}) {
-    row(fmt::format("{} m/s", speed), [&](const PartResidual& r) { return turns(r) && r.condition.speed_mps == speed; });
+    row(fmt::format("{} m/s", speed),
+        [&](const PartResidual& r) { return turns(r) && r.condition.speed_mps == speed; });
   }
   for (const double payload : {0.0, 0.3}) {
     row(fmt::format("payload {:.0f} %", 100 * payload),
@@ -73,7 +74,8 @@ void run(const Arguments& a) {
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     fmt::print("{}: {} of {} draws of options drive\n", kinds[i].name, a.draws - refused[i], a.draws);
   }
-  fmt::print("\n| engines, part | along, mm | across, mm | heading, mrad | heading, % of the turn |\n|---|---|---|---|---|\n");
+  fmt::print(
+      "\n| engines, part | along, mm | across, mm | heading, mrad | heading, % of the turn |\n|---|---|---|---|---|\n");
   std::vector<DifferenceBar> bars;
   std::string pairs;
   for (std::size_t i = 0; i < kinds.size(); ++i) {

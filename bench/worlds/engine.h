@@ -95,7 +95,7 @@ const EngineKind& find_engine(const std::string& name);
 /// Every option drawn on its own from its range.
 EngineOptions draw_options(const EngineKind& kind, RandomStream& random);
 
-/// The middle of every range, and the first of every choice.
+/// The middle of every range, and the first of every choice: the most exact, where they differ in that.
 EngineOptions middle_options(const EngineKind& kind);
 
 }  // namespace umbsim::worlds

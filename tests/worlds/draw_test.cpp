@@ -54,6 +54,15 @@ TEST(Draw, TheSameBytesOnAnyNumberOfThreadsAndInAnyShards) {
   EXPECT_EQ(drawn(plan, {{1, 2}, {0, 2}}, 2), once);
 }
 
+TEST(Draw, EveryEngineGivesTheSameBytesAgain) {
+  const WorldsPlan plan = plan_of(
+      "format: umbsim-worlds/1\nname: engines\nseed: 8\nruns: [one_way]\ndrivers: [own]\ntrackers: [mocap]\n"
+      "cases_per_engine: {single: 1}\n");
+  const Bytes once = drawn(plan, {{0, 1}}, 1);
+  EXPECT_GT(once.size(), engines().size());
+  EXPECT_EQ(drawn(plan, {{1, 2}, {0, 2}}, 2), once);
+}
+
 TEST(Draw, GoesOnWhereItWasStopped) {
   const WorldsPlan plan = plan_of(kShort + "cases_per_engine: {none: 2, single: 1}\n");
   const ScratchFolder scratch;

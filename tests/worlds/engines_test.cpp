@@ -116,6 +116,23 @@ TEST_P(Engines, APullIsMomentum) {
   EXPECT_NEAR((e->pose().x_m - before_m) / 0.1, expected_mps, 0.03 * expected_mps);
 }
 
+// The heading by which a round cable's longer way turns the robot.
+TEST_P(Engines, CableTurnsByItsClosedForm) {
+  constexpr double kHeight_m = 0.004, R = 0.075, r = kHeight_m / 2;
+  Rig rig = plain_rig(Size::middle);
+  const double b_m = rig.robot.wheelbase_m();
+  const std::unique_ptr<Engine> level = built(rig);
+  rig.floor.cables.push_back({0.6, -b_m / 2, M_PI / 2, kHeight_m, 0.1});
+  const std::unique_ptr<Engine> e = built(rig);
+  drive(*level, 2, 2, 8);
+  drive(*e, 2, 2, 8);
+  const double longer_m = 2 * (R + r) * std::acos((R - r) / (R + r)) - 4 * std::sqrt(R * r);
+  const auto off_rad = [&](const Engine& x) { return x.pose().theta_rad - by_wheels(x, rig).theta_rad; };
+  const double turned_rad = off_rad(*e) - off_rad(*level);
+  std::cout << -turned_rad * b_m / longer_m << " of the closed form\n";
+  EXPECT_NEAR(turned_rad, -longer_m / b_m, 0.1 * longer_m / b_m);
+}
+
 // On a slope without grip it slides as gravity says.
 TEST_P(Engines, SlopesPullDownhill) {
   Rig rig = plain_rig(Size::middle);

@@ -85,8 +85,8 @@ Difference difference(const std::vector<PartResidual>& a, const std::vector<Part
   std::map<Key, Moments> parts;
   const auto add = [&](const std::vector<PartResidual>& all, std::size_t side) {
     for (const PartResidual& p : all) {
-      Moments& m = parts[{p.condition.size, p.condition.speed_mps, p.condition.payload_share, p.part, p.length_m,
-                          p.angle_rad}];
+      Moments& m =
+          parts[{p.condition.size, p.condition.speed_mps, p.condition.payload_share, p.part, p.length_m, p.angle_rad}];
       const double share = p.angle_rad == 0 ? 0 : p.residual.theta_rad / p.angle_rad;
       const double value[] = {p.residual.x_m, p.residual.y_m, p.residual.theta_rad, share};
       ++m.n[side];

@@ -44,8 +44,8 @@ std::unique_ptr<Engine> build(const EngineSetup& setup, const EngineOptions& opt
 
 std::map<std::string, std::string> expressed() {
   const std::string shape = "the wheel's shape and link", motor = "target and largest impulse of the joint's motor",
-                    demand = "the driver asks for it; contacts slide at the friction pyramid",
-                    counts = "of the joint", friction = "friction of the wheel's collider";
+                    demand = "the driver asks for it; contacts slide at the friction pyramid", counts = "of the joint",
+                    friction = "friction of the wheel's collider";
   return {
       {"wheel_radius_scale", shape},
       {"wheel_radius_difference", shape},
@@ -62,7 +62,6 @@ std::map<std::string, std::string> expressed() {
       {"encoder_missed_counts", counts},
       {"encoder_latency", counts},
       {"tyre_compliance", "radius of the shape under the load at rest"},
-      {"contact_patch", "width of the cylinder or prism, spinning friction of a sphere"},
       {"caster_swivel", "two joints, a motor at rest as dry bearing"},
       {"caster_drag", "friction of the ball's collider"},
       {"slippery_floor", friction},
@@ -84,9 +83,15 @@ EngineKind bullet_engine() {
   kind.text = "Bullet's own multibody world (btMultiBodyDynamicsWorld), with its contacts and solvers";
   kind.options = {
       {"step_s", "s", Draw::log_uniform, 0.001, 1.0 / 240, {}, "fixed time step; 1/240 s is the default, 1 ms robots'"},
-      {"solver", "", Draw::choice, 0, 0, {"sequential_impulse", "dantzig"}, "sequential impulses are the default"},
+      {"solver", "", Draw::choice, 0, 0, {"dantzig", "sequential_impulse"}, "sequential impulses are the default"},
       {"iterations", "1", Draw::log_uniform, 10, 100, {}, "of sequential impulses; 10 and 50 are usual"},
-      {"wheel", "", Draw::choice, 0, 0, {"cylinder", "sphere", "convex"}, "shape; models have all (spheres with sequential impulses alone)"},
+      {"wheel",
+       "",
+       Draw::choice,
+       0,
+       0,
+       {"cylinder", "sphere", "convex"},
+       "shape; models have all (spheres with sequential impulses alone)"},
       {"sides", "1", Draw::log_uniform, 48, 128, {}, "of a convex wheel, as meshes have"},
       {"friction", "", Draw::choice, 0, 0, {"sliding", "spinning", "rolling"}, "what is added to the sliding friction"},
       {"torsion_m", "m", Draw::log_uniform, 0.0002, 0.002, {}, "spinning friction over the sliding one"},

@@ -88,8 +88,8 @@ EngineKind mujoco_engine() {
   kind.text = "MuJoCo 2.2 (Todorov, Erez & Tassa 2012): soft contacts, velocity servos";
   kind.options = {
       {"step_s", "s", Draw::log_uniform, 0.002, 0.005, {}, "timestep; 2 ms is the default, 5 ms usual for speed"},
-      {"integrator", "", Draw::choice, 0, 0, {"Euler", "implicit"}, "Euler is the default"},
-      {"cone", "", Draw::choice, 0, 0, {"pyramidal", "elliptic"}, "pyramidal is the default"},
+      {"integrator", "", Draw::choice, 0, 0, {"implicit", "Euler"}, "Euler is the default"},
+      {"cone", "", Draw::choice, 0, 0, {"elliptic", "pyramidal"}, "pyramidal is the default"},
       {"wheel",
        "",
        Draw::choice,

@@ -55,8 +55,10 @@ EngineOptions draw_options(const EngineKind& kind, RandomStream& random) {
 EngineOptions middle_options(const EngineKind& kind) {
   EngineOptions options;
   for (const EngineOption& o : kind.options) {
-    if (o.draw == EngineOption::Draw::choice) options.choices[o.name] = o.choices.front();
-    else options.numbers[o.name] = o.draw == EngineOption::Draw::uniform ? (o.min + o.max) / 2 : std::sqrt(o.min * o.max);
+    if (o.draw == EngineOption::Draw::choice)
+      options.choices[o.name] = o.choices.front();
+    else
+      options.numbers[o.name] = o.draw == EngineOption::Draw::uniform ? (o.min + o.max) / 2 : std::sqrt(o.min * o.max);
   }
   return options;
 }

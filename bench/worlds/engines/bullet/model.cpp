@@ -8,9 +8,9 @@ namespace umbsim::worlds::bullet {
 namespace {
 
 constexpr double kGravity_mps2 = 9.81;
-constexpr double kThinnest_m = 0.002;      // of a wheel that has no patch
-constexpr double kBallShare = 0.001;       // of the base's mass: no link is without
-constexpr double kRegular = 1e-7;          // the direct solver's matrix is singular without
+constexpr double kThinnest_m = 0.002;  // of a wheel that has no patch
+constexpr double kBallShare = 0.001;   // of the base's mass: no link is without
+constexpr double kRegular = 1e-7;      // the direct solver's matrix is singular without
 
 btVector3 to_bullet(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -165,10 +165,10 @@ void Model::add_robot() {
     const Eigen::Vector3d fork = c.fork.inertia_kgm2.diagonal();
     body_->setupRevolute(link, c.fork.mass_kg, to_bullet(fork), -1, to_bullet(R_BP_), {0, 0, 1},
                          in_body(c.swivel_point_m), to_bullet(Eigen::Vector3d(c.fork.com_m - c.swivel_point_m)), true);
-    body_->setupRevolute(
-        link + 1, c.wheel_mass_kg,
-        {c.wheel_transverse_inertia_kgm2, c.wheel_spin_inertia_kgm2, c.wheel_transverse_inertia_kgm2}, link,
-        btQuaternion::getIdentity(), {0, 1, 0}, to_bullet(Eigen::Vector3d(c.centre_m - c.fork.com_m)), {0, 0, 0}, true);
+    body_->setupRevolute(link + 1, c.wheel_mass_kg,
+                         {c.wheel_transverse_inertia_kgm2, c.wheel_spin_inertia_kgm2, c.wheel_transverse_inertia_kgm2},
+                         link, btQuaternion::getIdentity(), {0, 1, 0},
+                         to_bullet(Eigen::Vector3d(c.centre_m - c.fork.com_m)), {0, 0, 0}, true);
     link += 2;
   }
   body_->finalizeMultiDof();
@@ -178,8 +178,10 @@ void Model::add_robot() {
   for (int i = 0; i < 2; ++i) add_wheel(i);
   link = 2;
   for (const Caster& c : r.casters) {
-    if (c.swivels) add_swivel(link, c);
-    else add_ball(link, c);
+    if (c.swivels)
+      add_swivel(link, c);
+    else
+      add_ball(link, c);
     link += c.swivels ? 2 : 1;
   }
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr double kGravity_mps2 = 9.81;
 constexpr double kPlayDamping_share = 0.002;  // grease, over the servo's gain: a wheel in its play comes to rest
 constexpr double kThinnest_m = 0.002;         // of a wheel that has no patch
-constexpr double kLeastFriction = 1e-3;       // contacts of less give way like mud: their stiffness goes with its square
+constexpr double kLeastFriction = 1e-3;  // contacts of less give way like mud: their stiffness goes with its square
 
 std::string text(const Eigen::Vector3d& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
 

@@ -35,9 +35,14 @@ mjModel* load(const std::string& xml) {
 }  // namespace
 
 MujocoRobot::MujocoRobot(const Rig& rig, const MujocoOptions& options, const Pose2& X_WB)
-    : rig_(rig), options_(options), drift_{rig.floor.drift_x, rig.floor.drift_y}, heading_rad_(X_WB.theta_rad),
+    : rig_(rig),
+      options_(options),
+      drift_{rig.floor.drift_x, rig.floor.drift_y},
+      heading_rad_(X_WB.theta_rad),
       owned_model_(load(model_xml(rig, options, X_WB)), mj_deleteModel),
-      owned_data_(mj_makeData(owned_model_.get()), mj_deleteData), model_(owned_model_.get()), data_(owned_data_.get()) {
+      owned_data_(mj_makeData(owned_model_.get()), mj_deleteData),
+      model_(owned_model_.get()),
+      data_(owned_data_.get()) {
   find_parts();
   settle(X_WB);
 }
