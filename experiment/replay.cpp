@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -152,9 +151,9 @@ double Replay::coarse_step(const Rig& rig) const {
 std::vector<Pose2> Replay::poses(std::size_t index, const std::vector<Effect>& effects,
                                  double roughness_m_per_sqrt_m) const {
   return of_run(recording_.runs[index], [&] {
-    if (roughness_m_per_sqrt_m == 0) return at_truth(recording_.runs[index], driven(index, effects));
-    std::vector<Pose2> track = driven_over(index, effects, roughness_m_per_sqrt_m);
-    const std::vector<Pose2> mirrored = driven_over(index, effects, -roughness_m_per_sqrt_m);
+    std::vector<Pose2> track = driven(index, effects, roughness_m_per_sqrt_m);
+    if (roughness_m_per_sqrt_m == 0) return at_truth(recording_.runs[index], track);
+    const std::vector<Pose2> mirrored = driven(index, effects, -roughness_m_per_sqrt_m);
     for (std::size_t i = 0; i < track.size(); ++i) track[i] = between(track[i], mirrored[i], 0.5);
     return at_truth(recording_.runs[index], track);
   });
@@ -196,45 +195,47 @@ ShaftDrive Replay::shafts(std::size_t index, const Rig& supposed) const {
           shaft_speeds(run, e, e.right, false, lag_s_[index], steps_, step), start_[index]};
 }
 
+// The way of the shafts decides how rough the floor is under the wheels, whatever else happens to the robot.
+ShaftDrive Replay::drive_of(std::size_t index, const Rig& supposed, double roughness_m_per_sqrt_m) const {
+  ShaftDrive drive = shafts(index, supposed);
+  if (roughness_m_per_sqrt_m == 0) return drive;
+  RollingNoise rolling(roughness_m_per_sqrt_m, supposed);
+  std::array<double, 2> shaft_rad{};
+  drive.rolling.assign(drive.samples.size(), {1, 1});
+  for (std::size_t i = 1; i < drive.samples.size(); ++i) {
+    const double period_s = drive.period_s(i);
+    drive.rolling[i] = rolling.next(shaft_rad, {drive.left_radps[i], drive.right_radps[i]}, period_s);
+    shaft_rad[0] += drive.left_radps[i] * period_s;
+    shaft_rad[1] += drive.right_radps[i] * period_s;
+  }
+  return drive;
+}
+
 // Poses at the encoders' samples.
-std::vector<Pose2> Replay::driven(std::size_t index, const std::vector<Effect>& effects) const {
+std::vector<Pose2> Replay::driven(std::size_t index, const std::vector<Effect>& effects,
+                                  double roughness_m_per_sqrt_m) const {
   const Rig supposed = rig(index, effects);
   const Rig r = shafts_as_counted(supposed);
   const std::vector<Push> pushes = timed(r.pushes, stretches_[index]);
+  World world(r.robot, r.drivetrain, r.floor, scenario_.physics, pushes);
   const bool local = !r.floor.cables.empty() || !r.floor.patches.empty() || !pushes.empty();
-  if (!local || !same_everywhere(r.floor)) return driven_over(index, effects, 0);
+  if (!local || !same_everywhere(r.floor)) {
+    return traced(world, drive_of(index, supposed, roughness_m_per_sqrt_m), false).track;
+  }
   std::vector<Effect> elsewhere;
   std::copy_if(effects.begin(), effects.end(), std::back_inserter(elsewhere),
                [](const Effect& e) { return !acts_somewhere(e); });
-  const auto without = traces_->get(std::to_string(index) + '\n' + bytes_of(elsewhere), [&] {
+  const std::string key = fmt::format("{} {:a}\n", index, roughness_m_per_sqrt_m) + bytes_of(elsewhere);
+  const auto without = traces_->get(key, [&] {
     Floor bare = r.floor;
     bare.cables.clear();
     bare.patches.clear();
     World plain(r.robot, r.drivetrain, bare, scenario_.physics);
-    TracedRun run = traced(plain, shafts(index, supposed));
+    TracedRun run = traced(plain, drive_of(index, supposed, roughness_m_per_sqrt_m));
     if (by_tracker_) run.seen = seen_beside(recording_.runs[index], run.track, TracedRun::kEvery);
     return std::make_shared<const TracedRun>(std::move(run));
   });
-  World world(r.robot, r.drivetrain, r.floor, scenario_.physics, pushes);
   return driven_near(world, r, pushes, *without);
-}
-
-// The whole run, over a rough floor.
-std::vector<Pose2> Replay::driven_over(std::size_t index, const std::vector<Effect>& effects,
-                                       double roughness_m_per_sqrt_m) const {
-  const Rig supposed = rig(index, effects);
-  const ShaftDrive drive = shafts(index, supposed);
-  const Rig r = shafts_as_counted(supposed);
-  World world(r.robot, r.drivetrain, r.floor, scenario_.physics, timed(r.pushes, stretches_[index]));
-  world.place(drive.start);
-  RollingNoise rolling(roughness_m_per_sqrt_m, r);
-  std::vector<Pose2> track{world.pose()};
-  for (std::size_t i = 1; i < drive.samples.size(); ++i) {
-    rolling.roughen(world, {drive.left_radps[i], drive.right_radps[i]}, drive.period_s(i));
-    drive.advance(world, i);
-    track.push_back(world.pose());
-  }
-  return track;
 }
 
 std::vector<std::array<double, 2>> Replay::counts(std::size_t index, const std::vector<Effect>& effects) const {
@@ -275,28 +276,6 @@ Habits Replay::habits(const std::vector<Effect>& effects) const {
   h[3] = std::log(std::max(1.0, r.encoders.sampling_interval_s / period_s));
   h[4] = std::log(r.encoders.ticks_per_revolution / recording_.robot.ticks_per_revolution);
   return h;
-}
-
-Scenario scenario_of(const Recording& recording, const std::string& directory) {
-  Scenario s;
-  s.file = (std::filesystem::path(directory) / "recording.yaml").string();
-  s.name = "twin";
-  if (!recording.robot.urdf.empty()) s.robot.urdf = recording.robot.urdf;
-  s.robot.joints = {recording.robot.left_joint, recording.robot.right_joint};
-  s.encoders.ticks_per_revolution = recording.robot.ticks_per_revolution;
-  s.encoders.rate_hz = recording.encoder_rate_hz;
-  const RecordedPath& p = recording.path;
-  if (p.side_m > 0) s.course.side_m = p.side_m;
-  s.course.turn = p.turn;
-  if (p.turn_radius_m) s.course.turn_radius_m = *p.turn_radius_m;
-  if (p.linear_speed_mps) s.course.linear_speed_mps = *p.linear_speed_mps;
-  if (p.angular_speed_radps) s.course.angular_speed_radps = *p.angular_speed_radps;
-  if (p.linear_acceleration_mps2) s.course.linear_acceleration_mps2 = *p.linear_acceleration_mps2;
-  if (p.angular_acceleration_radps2) s.course.angular_acceleration_radps2 = *p.angular_acceleration_radps2;
-  s.truth.kind = recording.truth_kind;
-  s.truth.position_sd_m = recording.truth_position_sd_m;
-  s.truth.heading_sd_rad = recording.truth_heading_sd_rad;
-  return s;
 }
 
 }  // namespace umbsim

@@ -53,9 +53,9 @@ class Replay {
   Rig rig(std::size_t run, const std::vector<Effect>& effects) const;
   Rig shafts_as_counted(Rig rig) const;
   ShaftDrive shafts(std::size_t run, const Rig& supposed) const;
-  std::vector<Pose2> driven(std::size_t run, const std::vector<Effect>& effects) const;
-  std::vector<Pose2> driven_over(std::size_t run, const std::vector<Effect>& effects,
-                                 double roughness_m_per_sqrt_m) const;
+  ShaftDrive drive_of(std::size_t run, const Rig& supposed, double roughness_m_per_sqrt_m) const;
+  std::vector<Pose2> driven(std::size_t run, const std::vector<Effect>& effects,
+                            double roughness_m_per_sqrt_m) const;
   double coarse_step(const Rig& rig) const;
   Habits asked(const Demand& demand) const;
 

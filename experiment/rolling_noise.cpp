@@ -28,19 +28,26 @@ void RollingNoise::next_grain(Grain& g, double planned_m) const {
   g.granted_1pm = std::clamp(g.length_m + g.owed_m, 0.0, 2 * g.length_m) / (g.length_m * g.length_m);
 }
 
-void RollingNoise::roughen(World& world, const WheelSpeeds& command, double period_s) {
-  if (k_m_per_sqrt_m_ == 0) return;
+const std::array<double, 2>& RollingNoise::next(const std::array<double, 2>& wheel_rad, const WheelSpeeds& command,
+                                                double period_s) {
+  if (k_m_per_sqrt_m_ == 0) return factors_;
   const double speed_radps[2] = {command.left_radps, command.right_radps};
-  for (int i = 0; i < 2; ++i) {
-    Grain& g = grains_[std::size_t(i)];
-    const double angle_rad = world.wheel_angle(i);
-    g.rolled_m += std::abs(angle_rad - g.angle_rad) * g.radius_m;
-    g.angle_rad = angle_rad;
+  for (std::size_t i = 0; i < 2; ++i) {
+    Grain& g = grains_[i];
+    g.rolled_m += std::abs(wheel_rad[i] - g.angle_rad) * g.radius_m;
+    g.angle_rad = wheel_rad[i];
     const double planned_m = std::abs(speed_radps[i]) * period_s * g.radius_m;
     if (g.rolled_m + planned_m / 2 < g.length_m) continue;
     next_grain(g, planned_m);
-    world.scale_rolling_radius(i, 1 + k_m_per_sqrt_m_ * std::sqrt(g.granted_1pm) * g.random.normal());
+    factors_[i] = 1 + k_m_per_sqrt_m_ * std::sqrt(g.granted_1pm) * g.random.normal();
   }
+  return factors_;
+}
+
+void RollingNoise::roughen(World& world, const WheelSpeeds& command, double period_s) {
+  if (k_m_per_sqrt_m_ == 0) return;
+  next({world.wheel_angle(0), world.wheel_angle(1)}, command, period_s);
+  for (int i = 0; i < 2; ++i) world.scale_rolling_radius(i, factors_[std::size_t(i)]);
 }
 
 }  // namespace umbsim

@@ -17,7 +17,11 @@ class RollingNoise {
   /// `k_m_per_sqrt_m` = 0: nothing ever happens; negative: the mirror image of the positive one.
   RollingNoise(double k_m_per_sqrt_m, const Rig& rig);
 
-  /// Before every control period, with the wheel speeds commanded for it.
+  /// Rolling radii over the wheels' own for a control period, left and right. Asked before every period, with the angles
+  /// to which the wheels have turned so far and the speeds commanded for it.
+  const std::array<double, 2>& next(const std::array<double, 2>& wheel_rad, const WheelSpeeds& command,
+                                    double period_s);
+  /// The same, of a world's wheels.
   void roughen(World& world, const WheelSpeeds& command, double period_s);
 
  private:
@@ -34,6 +38,7 @@ class RollingNoise {
 
   double k_m_per_sqrt_m_;
   std::array<Grain, 2> grains_;
+  std::array<double, 2> factors_{1, 1};
 };
 
 }  // namespace umbsim

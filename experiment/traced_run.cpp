@@ -62,7 +62,7 @@ class Happenings {
 
 }  // namespace
 
-TracedRun traced(World& world, ShaftDrive shafts) {
+TracedRun traced(World& world, ShaftDrive shafts, bool moments) {
   TracedRun run{std::move(shafts), {}, {}, {}};
   const ShaftDrive& drive = run.drive;
   run.track.reserve(drive.samples.size());
@@ -70,7 +70,7 @@ TracedRun traced(World& world, ShaftDrive shafts) {
   for (std::size_t i = 0; i < drive.samples.size(); ++i) {
     if (i > 0) drive.advance(world, i);
     run.track.push_back(world.pose());
-    if (i % TracedRun::kEvery == 0) run.moments.push_back(world.snapshot());
+    if (moments && i % TracedRun::kEvery == 0) run.moments.push_back(world.snapshot());
   }
   return run;
 }

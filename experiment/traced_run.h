@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -13,16 +14,19 @@
 
 namespace umbsim {
 
-/// A recorded run as it is driven again: where from, and the speeds of both shafts at each of the encoders' samples.
+/// A recorded run as it is driven again: where from, the speeds of both shafts at each of the encoders' samples, and
+/// how rough the floor is under the wheels on the way there.
 struct ShaftDrive {
   const std::vector<EncoderSample>& samples;
   std::vector<double> left_radps;
   std::vector<double> right_radps;
   Pose2 start;
+  std::vector<std::array<double, 2>> rolling{};  ///< rolling radii over the wheels' own; empty: they are their own
 
   double period_s(std::size_t sample) const { return samples[sample].time_s - samples[sample - 1].time_s; }
   /// From the sample before to this one.
   void advance(World& world, std::size_t sample) const {
+    for (int i = 0; i < 2 && !rolling.empty(); ++i) world.scale_rolling_radius(i, rolling[sample][std::size_t(i)]);
     world.command(left_radps[sample], right_radps[sample]);
     world.advance(period_s(sample));
   }
@@ -37,8 +41,8 @@ struct TracedRun {
   std::vector<Pose2> seen;  ///< of each moment, seen_track.h; empty: the robot was where the track says
 };
 
-/// Throws RunError, InputError.
-TracedRun traced(World& world, ShaftDrive drive);
+/// Without `moments` the poses alone. Throws RunError, InputError.
+TracedRun traced(World& world, ShaftDrive drive, bool moments = true);
 
 /// Whether the floor is the same at each place and in each direction but for what lies there: cables and patches.
 bool same_everywhere(const Floor& floor);

@@ -85,6 +85,7 @@ Model::Model(const Recording& recording, Simulator simulator, const Scatter& sca
   }
   const Drive drive = [this](const std::vector<Effect>& effects) { return predict({effects}).front().tracks; };
   nuisances_ = make_nuisances(nominal_, filters_, scatter_, drive, noise_floor_m_, kFeatureRows, kLagRow);
+  products_of_nuisances_ = products_of_nuisances();
 }
 
 // Each grain of a floor makes wheels that scrub hold or give way. It moves no other robot's mean path.
@@ -177,29 +178,49 @@ std::vector<Eigen::MatrixXd> Model::columns(const Predicted& at, const std::vect
   return result;
 }
 
+// Products of the nuisances with each other are the same for every residual: most of the work, done once.
+std::vector<Eigen::MatrixXd> Model::products_of_nuisances() const {
+  std::vector<Eigen::MatrixXd> products(nuisances_.shared.size());
+  tbb::parallel_for(std::size_t(0), products.size(), [&](std::size_t r) {
+    Eigen::MatrixXd all(nuisances_.shared[r].rows(), nuisances() + nuisances_.own_sd.size());
+    all << nuisances_.shared[r], nuisances_.own[r];
+    products[r] = all.transpose() * all;
+  });
+  return products;
+}
+
 std::vector<RunGram> Model::grams(const std::vector<Eigen::VectorXd>& residual,
                                   const std::vector<Eigen::MatrixXd>& columns,
                                   const std::vector<LocalColumns>& local) const {
   std::vector<RunGram> result(recording_.runs.size());
+  const Eigen::Index shared = nuisances();
   const Eigen::Index own = nuisances_.own_sd.size();
   tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t r) {
     const Eigen::Index effects = columns.empty() ? 0 : columns[r].cols();
     const Eigen::Index more = local.empty() ? 0 : local[r].columns.cols();
-    const Eigen::Index kept = 1 + nuisances() + effects;
-    Eigen::MatrixXd all(residual[r].size(), kept + own + more);
+    const Eigen::Index kept = 1 + shared + effects;
+    Eigen::MatrixXd given(residual[r].size(), 1 + effects + more);
     Eigen::VectorXd sd(own + more);
-    all.col(0) = residual[r];
-    all.middleCols(1, nuisances()) = nuisances_.shared[r];
-    if (effects > 0) all.middleCols(1 + nuisances(), effects) = columns[r];
-    all.middleCols(kept, own) = nuisances_.own[r];
+    std::vector<Eigen::Index> at_given{0};
+    std::vector<Eigen::Index> at_nuisances;
+    given.col(0) = residual[r];
+    if (effects > 0) given.middleCols(1, effects) = columns[r];
     sd.head(own) = nuisances_.own_sd;
     if (more > 0) {
-      all.rightCols(more) = local[r].columns;
+      given.rightCols(more) = local[r].columns;
       sd.tail(more) = local[r].prior_sd;
     }
-    Eigen::MatrixXd products = Eigen::MatrixXd::Zero(all.cols(), all.cols());
-    products.selfadjointView<Eigen::Lower>().rankUpdate(all.transpose());
-    products.triangularView<Eigen::StrictlyUpper>() = products.transpose();
+    for (Eigen::Index i = 0; i < effects; ++i) at_given.push_back(1 + shared + i);
+    for (Eigen::Index i = 0; i < more; ++i) at_given.push_back(kept + own + i);
+    for (Eigen::Index i = 0; i < shared; ++i) at_nuisances.push_back(1 + i);
+    for (Eigen::Index i = 0; i < own; ++i) at_nuisances.push_back(kept + i);
+    Eigen::MatrixXd cross(given.cols(), shared + own);
+    cross << given.transpose() * nuisances_.shared[r], given.transpose() * nuisances_.own[r];
+    Eigen::MatrixXd products(kept + own + more, kept + own + more);
+    products(at_given, at_given) = given.transpose() * given;
+    products(at_given, at_nuisances) = cross;
+    products(at_nuisances, at_given) = cross.transpose();
+    products(at_nuisances, at_nuisances) = products_of_nuisances_[r];
     result[r] = integrated_out(products, int(kept), sd);
   });
   return result;

@@ -143,6 +143,7 @@ class Model {
   double log_evidence(const Fit& fit, const std::vector<std::size_t>& runs) const;
 
  private:
+  std::vector<Eigen::MatrixXd> products_of_nuisances() const;
   double roughness_under(const std::vector<Effect>& effects) const;
   Eigen::VectorXd feature_rows(std::size_t run, const Predicted& a, const Predicted& b, double lag_sd_s) const;
   void linearise(Fit& fit) const;
@@ -164,6 +165,7 @@ class Model {
   double noise_floor_m_ = 0;
   std::vector<TrackFilter> filters_;
   Nuisances nuisances_;
+  std::vector<Eigen::MatrixXd> products_of_nuisances_;  ///< by run: shared, then the run's own
   mutable double simulated_s_ = 0;
 };
 

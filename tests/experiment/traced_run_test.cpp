@@ -7,6 +7,8 @@
 #include <iostream>
 
 #include "core/error.h"
+#include "effects/geometry.h"
+#include "experiment/rolling_noise.h"
 #include "sim/world.h"
 
 namespace umbsim {
@@ -39,11 +41,12 @@ struct Squares {
       right.push_back(r + ramp * (right_radps - r));
     }
   }
-  ShaftDrive drive() const { return {samples, left, right, {}}; }
+  ShaftDrive drive() const { return {samples, left, right, {}, rolling}; }
 
   std::vector<EncoderSample> samples;
   std::vector<double> left;
   std::vector<double> right;
+  std::vector<std::array<double, 2>> rolling;  // as ShaftDrive
 };
 
 class TracedRunTest : public ::testing::Test {
@@ -158,6 +161,20 @@ TEST_F(TracedRunTest, AHoleUnderARobotWithBacklash) {
   for (Motor& m : rig_.drivetrain.motor) m.backlash_rad = 0.03;
   rig_.floor.patches.push_back({2.0, 0.15, 0.08, 0});
   compare("hole, backlash", {}, 0.6);
+}
+
+// Toed wheels scrub: which grains they are on decides how far they come.
+TEST_F(TracedRunTest, AHoleInARoughFloorUnderToedWheels) {
+  apply(WheelMisalignment{0.004, 0.003}, rig_);
+  RollingNoise rolling(1e-4, rig_);
+  std::array<double, 2> shaft_rad{};
+  for (std::size_t i = 0; i < squares_.samples.size(); ++i) {
+    squares_.rolling.push_back(rolling.next(shaft_rad, {squares_.left[i], squares_.right[i]}, kPeriod_s));
+    shaft_rad[0] += squares_.left[i] * kPeriod_s;
+    shaft_rad[1] += squares_.right[i] * kPeriod_s;
+  }
+  rig_.floor.patches.push_back({2.0, 0.15, 0.08, 0});
+  compare("hole, toe, rough floor", {}, 0.6);
 }
 
 TEST_F(TracedRunTest, KnowsFloorsThatDifferFromPlaceToPlace) {
