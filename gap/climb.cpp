@@ -15,18 +15,21 @@ constexpr int kHalvings = 4;
 constexpr double kOneHill = 2.1;  // first steps, within which a worse start is on the way to the same top
 constexpr double kReachAgain = 2;  // steps of each number, to which a place is looked for again
 constexpr int kClimbsAgain = 2;
-constexpr int kMostTries = 200;  // simulations of all runs in the search for a place
+constexpr int kMostTries = 200;  // simulations of the runs in the search for a place
+constexpr std::ptrdiff_t kBegunOn = 3;   // runs
+constexpr std::size_t kKeptOfFew = 3;    // starts for each climb, to be tried on all runs
 
 }  // namespace
 
-std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, const Fit& base, const Family& family) {
+std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, const Fit& base, const Family& family,
+                                                         const std::vector<std::size_t>& runs) {
   std::vector<Family> families = base.families;
   families.push_back(family);
-  return [&model, families, p = base.p](const Eigen::VectorXd& numbers) {
+  return [&model, families, runs, p = base.p](const Eigen::VectorXd& numbers) {
     Eigen::VectorXd all(p.size() + numbers.size());
     all << p, numbers;
     try {
-      return model.density_at(families, all);
+      return model.density_at(families, all, runs);
     } catch (const RunError&) {
       return -1e300;
     } catch (const InputError&) {
@@ -53,8 +56,10 @@ Eigen::VectorXd climbed(const std::function<double(const Eigen::VectorXd&)>& den
 
 }  // namespace
 
-double keep_best_starts(const Model& model, const Fit& base, Screen::Candidate& c) {
-  const auto density = density_on(model, base, c.family);
+namespace {
+
+// The best starts of different hills, best first, as some runs see them; the density of the first.
+double keep_best(const std::function<double(const Eigen::VectorXd&)>& density, std::size_t most, Screen::Candidate& c) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < c.starts.size(); ++i) order.push_back({-density(c.starts[i]), i});
   std::sort(order.begin(), order.end());
@@ -65,10 +70,23 @@ double keep_best_starts(const Model& model, const Fit& base, Screen::Candidate& 
       return c.reach.size() > 0 && ((start - b).cwiseAbs().array() < kOneHill * c.reach.array()).all();
     });
     if (other_hill) best.push_back(start);
-    if (best.size() == std::size_t(c.climbs)) break;
+    if (best.size() == most) break;
   }
   c.starts = std::move(best);
   return -order.front().first;
+}
+
+// The runs on which a search is begun: a few that show most. Empty: all.
+std::vector<std::size_t> begun_on(const Screen::Candidate& c) {
+  return {c.shown_by.begin(), c.shown_by.begin() + std::min(kBegunOn, std::ptrdiff_t(c.shown_by.size()))};
+}
+
+}  // namespace
+
+double keep_best_starts(const Model& model, const Fit& base, Screen::Candidate& c) {
+  const std::size_t climbs = std::size_t(c.climbs);
+  if (!c.shown_by.empty()) keep_best(density_on(model, base, c.family, begun_on(c)), kKeptOfFew * climbs, c);
+  return keep_best(density_on(model, base, c.family), climbs, c);
 }
 
 std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& base, Screen::Candidate c, double least) {
@@ -80,7 +98,7 @@ std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& bas
   double highest = -1e301;
   Eigen::VectorXd best;
   for (const Eigen::VectorXd& start : c.starts) {
-    const Eigen::VectorXd top = climbed(density, c, start);
+    const Eigen::VectorXd top = climbed(density_on(model, base, c.family, begun_on(c)), c, start);
     const double there = density(top);
     if (there <= highest) continue;
     highest = there;

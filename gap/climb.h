@@ -8,11 +8,12 @@
 namespace umbsim::gap {
 
 /// Log density of a family's numbers on top of `base`. Numbers with which the robot cannot be driven are the worst.
-/// `base` is copied; `model` must stay.
-std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, const Fit& base, const Family& family);
+/// `base` is copied; `model` must stay. `runs`: that count, and are driven; empty: all.
+std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, const Fit& base, const Family& family,
+                                                         const std::vector<std::size_t>& runs = {});
 
-/// The candidate with the best few of its starts alone, best first, of each hill one. Returns the best one's log
-/// density on top of `base`. Throws nothing for numbers with which the robot cannot be driven: they are the worst.
+/// The candidate with the best few of its starts alone, best first, of each hill one. All are tried on the few runs that
+/// show most, and what does well there on all runs. Returns the best one's log density on top of `base`. Throws nothing for numbers with which the robot cannot be driven: they are the worst.
 double keep_best_starts(const Model& model, const Fit& base, Screen::Candidate& candidate);
 
 /// Numbers of the candidate's family with which a fit on top of `base` begins: the highest of several hills. Nothing

@@ -12,6 +12,8 @@ namespace umbsim::gap {
 namespace {
 
 constexpr int kRoundsAgain = 2;
+constexpr double kBendShare = 0.01;  // of a step, squared, by which it may end elsewhere than its derivatives foretold,
+constexpr double kBend = 1;          // or as much in squared standard deviations of the tracks
 
 std::vector<int> first_columns(Eigen::Index n) {
   std::vector<int> columns;
@@ -140,16 +142,16 @@ double Model::density_at(const std::vector<Family>& families, const Eigen::Vecto
   Fit fit;
   fit.families = families;
   fit.p = p;
-  const Predicted predicted = predict({fit.effects()}).front();
   const std::vector<std::size_t> runs = some.empty() ? all_runs() : some;
+  const Predicted predicted = predict({fit.effects()}, runs).front();
   return evidence(grams(residuals(predicted), {}), runs, first_columns(nuisances()), nuisance_sds()).log_density +
          log_chance(fit.effects());
 }
 
-// The simulator at p and a step from it in every direction.
-void Model::linearise(Fit& fit) const {
+// Derivatives at the fit's numbers, by a step in every direction.
+Linearisation Model::linearised(const Fit& fit) const {
   const std::vector<FreeParameter> free = free_parameters(fit.families);
-  std::vector<std::vector<Effect>> sets{fit.effects()};
+  std::vector<std::vector<Effect>> sets;
   std::vector<double> steps;
   for (Eigen::Index i = 0; i < fit.p.size(); ++i) {
     const FreeParameter& parameter = free[std::size_t(i)];
@@ -160,37 +162,107 @@ void Model::linearise(Fit& fit) const {
     stepped.p[i] += steps.back();
     sets.push_back(stepped.effects());
   }
-  std::vector<Predicted> predicted = predict(sets);
-  fit.predicted = std::move(predicted.front());
-  predicted.erase(predicted.begin());
-  fit.columns = columns(fit.predicted, predicted, steps);
-  fit.grams = grams(residuals(fit.predicted), fit.columns);
+  return {fit.p, residuals(fit.predicted), columns(fit.predicted, predict(sets), steps)};
 }
 
-// Gauss-Newton on the density, with steps back where the simulator bends.
+// A step that ended elsewhere than foretold says how the derivatives along it really were (Broyden 1965). `scale`: of the
+// numbers.
+void Linearisation::learn(const Eigen::VectorXd& to, const std::vector<Eigen::VectorXd>& there,
+                          const Eigen::VectorXd& scale) {
+  const Eigen::VectorXd step = to - p;
+  const Eigen::VectorXd direction = step.cwiseQuotient(scale.cwiseAbs2());
+  const double length2 = step.dot(direction);
+  for (std::size_t r = 0; r < columns.size(); ++r) {
+    const Eigen::VectorXd missed = residual[r] - there[r] - columns[r] * step;
+    columns[r] += missed * (direction / length2).transpose();
+  }
+  p = to;
+  residual = there;
+}
+
+double Linearisation::share_missed(const Eigen::VectorXd& to, const std::vector<Eigen::VectorXd>& there) const {
+  double moved = 0;
+  double missed = 0;
+  for (std::size_t r = 0; r < columns.size(); ++r) {
+    const Eigen::VectorXd by = columns[r] * (to - p);
+    moved += by.squaredNorm();
+    missed += (residual[r] - by - there[r]).squaredNorm();
+  }
+  return missed / (kBend / kBendShare + moved);
+}
+
+namespace {
+
+// One descent: numbers, the best of them so far, and what is known of the derivatives.
+struct Descent {
+  std::optional<Linearisation> known;
+  bool learned = false;  // from steps, since they were last taken at a point
+  double density = -1e300;
+  double wanted = 0;  // the next step in standard deviations, without bounds
+  double change = 0;  // and within them
+};
+
+// Where the linear model has its optimum, within the bounds.
+Eigen::VectorXd next_numbers(const Fit& fit, const Eigen::VectorXd& optimum, const std::vector<FreeParameter>& free,
+                             Descent& d) {
+  Eigen::VectorXd next = optimum;
+  d.change = d.wanted = 0;
+  for (Eigen::Index i = 0; i < next.size(); ++i) {
+    const double sd_left = std::sqrt(fit.covariance(i, i) + 1e-300);
+    d.wanted = std::max(d.wanted, std::abs(next[i] - fit.p[i]) / sd_left);
+    next[i] = std::clamp(next[i], free[std::size_t(i)].min, free[std::size_t(i)].max);
+    d.change = std::max(d.change, std::abs(next[i] - fit.p[i]) / sd_left);
+  }
+  return next;
+}
+
+// What does not act in proportion takes longer, most of all with the softness of the tyres.
+int rounds_of(const std::vector<Family>& families, int rounds) {
+  const auto any = [&](const auto& is) { return std::any_of(families.begin(), families.end(), is); };
+  if (any([](const Family& f) { return bool(f.with); })) return 2 * rounds;
+  return any([](const Family& f) { return !f.from_zero; }) ? rounds + 1 : rounds;
+}
+
+}  // namespace
+
+// Gauss-Newton on the density, with steps back where the simulator bends. Derivatives are taken where the descent
+// begins, if none are given, and where it ends, if steps did not go where they pointed.
 Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start, int rounds,
-               const std::vector<std::size_t>& some) const {
+               const std::vector<std::size_t>& some, const std::optional<Linearisation>& given) const {
   const std::vector<std::size_t> runs = some.empty() ? all_runs() : some;
-  Fit fit;
-  fit.families = families;
   const std::vector<FreeParameter> free = free_parameters(families);
   const Eigen::Index m = Eigen::Index(free.size());
-  fit.p.resize(m);
-  for (Eigen::Index i = 0; i < m; ++i) fit.p[i] = start.size() == m ? start[i] : free[std::size_t(i)].start;
   const Eigen::VectorXd s = prior_sd(families);
   const std::vector<Eigen::VectorXd> sds = with_more(nuisance_sds(), s);
+  const bool from_zero = std::all_of(families.begin(), families.end(), [](const Family& f) { return f.from_zero; });
+  Fit fit;
+  fit.families = families;
+  fit.p.resize(m);
+  for (Eigen::Index i = 0; i < m; ++i) fit.p[i] = start.size() == m ? start[i] : free[std::size_t(i)].start;
   Fit best;
-  double best_density = -1e300;
-  // What does not act in proportion takes longer, most of all with the softness of the tyres.
-  const auto any = [&](const auto& is) { return std::any_of(families.begin(), families.end(), is); };
-  if (any([](const Family& f) { return bool(f.with); }))
-    rounds *= 2;
-  else if (any([](const Family& f) { return !f.from_zero; }))
-    rounds += 1;
-  const bool from_zero = !any([](const Family& f) { return !f.from_zero; });
-  for (int round = 0; round < rounds; ++round) {
+  Descent d;
+  d.known = given;
+  const auto solved = [&](Fit& at) {
+    at.columns = d.known->columns;
+    at.grams = grams(residuals(at.predicted), at.columns);
+    const Evidence e = evidence(at.grams, runs, first_columns(nuisances() + m), sds, shifted(nuisances(), at.p));
+    at.covariance = e.covariance.bottomRightCorner(m, m);
+    return next_numbers(at, e.mean.tail(m), free, d);
+  };
+  const auto taken_here = [&](Fit& at) {
+    d.known = linearised(at);
+    d.learned = false;
+  };
+  for (int round = 0; round < rounds_of(families, rounds); ++round) {
     try {
-      linearise(fit);
+      fit.predicted = predict({fit.effects()}).front();
+      const std::vector<Eigen::VectorXd> there = residuals(fit.predicted);
+      if (!d.known || (round == 0 && d.known->share_missed(fit.p, there) > kBendShare)) {
+        taken_here(fit);
+      } else if (d.known->share_missed(fit.p, there) > kBendShare) {
+        d.known->learn(fit.p, there, s);
+        d.learned = true;
+      }
     } catch (const std::runtime_error&) {
       // RunError or InputError: with these numbers the robot tips over, or does not even stand at its start. A step too
       // far, if it could be driven before.
@@ -199,38 +271,36 @@ Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start
       fit.p = (fit.p + best.p) / 2;
       continue;
     }
-    const Evidence e = evidence(fit.grams, runs, first_columns(nuisances() + m), sds, shifted(nuisances(), fit.p));
+    Eigen::VectorXd next = solved(fit);
     // Density with the effects held at p: the honest objective of the descent.
     const Evidence held = evidence(fit.grams, runs, first_columns(nuisances()), nuisance_sds());
     const double density = held.log_density - 0.5 * fit.p.cwiseQuotient(s).squaredNorm();
-    fit.covariance = e.covariance.bottomRightCorner(m, m);
     fit.residual = held.residual;
     fit.misfit = held.misfit;
     fit.nuisance = held.mean;
-    if (density <= best_density) {
+    if (density <= d.density) {
       // Where a step leads was not where the derivatives pointed, unless it was too small to matter.
-      best.linear = density > best_density - 0.5;
+      best.linear = density > d.density - 0.5;
       fit.p = (fit.p + best.p) / 2;
       continue;
     }
-    const bool small = density < best_density + 0.05;
-    best_density = density;
-    best = fit;
-    if (small) break;
-    Eigen::VectorXd next = e.mean.tail(m);
-    double change = 0;
-    double wanted = 0;  // the same without bounds
-    for (Eigen::Index i = 0; i < m; ++i) {
-      const double sd_left = std::sqrt(fit.covariance(i, i) + 1e-300);
-      wanted = std::max(wanted, std::abs(next[i] - fit.p[i]) / sd_left);
-      next[i] = std::clamp(next[i], free[std::size_t(i)].min, free[std::size_t(i)].max);
-      change = std::max(change, std::abs(next[i] - fit.p[i]) / sd_left);
+    bool ends = density < d.density + 0.05 || d.change < 0.1;
+    d.density = density;
+    if (ends && d.learned) {
+      taken_here(fit);
+      next = solved(fit);
+      ends = d.change < 0.1;
     }
+    best = fit;
     // At a bound the linear model may have its optimum far beyond it: that is no evidence, except for numbers that the
     // prior itself cuts at zero.
-    best.linear = (from_zero ? change : wanted) < 1;
-    if (change < 0.1) break;
+    best.linear = (from_zero ? d.change : d.wanted) < 1;
+    if (ends) break;
     fit.p = next;
+  }
+  if (d.learned) {
+    taken_here(best);
+    solved(best);
   }
   best.log_chance = log_chance(best.effects());
   score(best);

@@ -36,6 +36,17 @@ std::vector<bool> goes_straight(const Model& model, std::size_t r) {
   return straight;
 }
 
+// Runs in the order of how much each adds to what all show; those that speak against it are left out.
+std::vector<std::size_t> most_shown(const std::vector<double>& by_run, double sum) {
+  std::vector<std::size_t> order;
+  for (std::size_t r = 0; r < by_run.size(); ++r) {
+    if (by_run[r] * sum > 0) order.push_back(r);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return std::abs(by_run[a]) > std::abs(by_run[b]); });
+  return order;
+}
+
 }  // namespace
 
 Kicks find_kicks(const Model& model, const Fit& fit) {
@@ -91,7 +102,7 @@ Kicks find_kicks(const Model& model, const Fit& fit) {
         const Pose2& at = wheels[r][std::size_t(w)][k];
         const double spot_m = scale * kSpot_m;
         if (!spots.insert({std::lround(at.x_m / spot_m), std::lround(at.y_m / spot_m)}).second) continue;
-        places.push_back({at.x_m, at.y_m, at.theta_rad, w, 0, 0, 0});
+        places.push_back({at.x_m, at.y_m, at.theta_rad, w, 0, 0, 0, {}});
       }
     }
   }
@@ -100,6 +111,7 @@ Kicks find_kicks(const Model& model, const Fit& fit) {
     double zy = 0;
     double zz = 0;
     double nearest_leg = 1e300;
+    std::vector<double> shown(runs);
     for (std::size_t r = 0; r < runs; ++r) {
       for (int w = 0; w < 2; ++w) {
         // Nearest approach of each pass, once each.
@@ -109,7 +121,9 @@ Kicks find_kicks(const Model& model, const Fit& fit) {
         const auto take = [&] {
           if (nearest >= reach2) return;
           const Eigen::Vector3d lost(-0.5, 0, (w == 0 ? 1 : -1) / b_m);
-          zy += lost.dot(all[r].with_column[at]);
+          const double seen_here = lost.dot(all[r].with_column[at]);
+          zy += seen_here;
+          shown[r] += seen_here;
           zz += lost.dot(all[r].with_itself[at] * lost);
           ++place.passes;
           // What lies across the path lies across that of a leg, where there is one: in a corner headings are many.
@@ -137,6 +151,7 @@ Kicks find_kicks(const Model& model, const Fit& fit) {
     const double M = 1 + kLostSd_m * kLostSd_m * zz;
     place.lost_m = kLostSd_m * kLostSd_m * zy / M;
     place.gain = 0.5 * kLostSd_m * kLostSd_m * zy * zy / M - 0.5 * std::log(M);
+    place.shown_by = most_shown(shown, zy);
   });
   std::sort(places.begin(), places.end(), [](const PlaceKick& a, const PlaceKick& b) { return a.gain > b.gain; });
   for (const PlaceKick& p : places) {

@@ -23,6 +23,7 @@ struct PlaceKick {
   double lost_m = 0;
   int passes = 0;
   double gain = 0;
+  std::vector<std::size_t> shown_by;  ///< the runs that show it most, best first
 };
 
 struct Kicks {

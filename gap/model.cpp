@@ -94,8 +94,10 @@ double Model::roughness_under(const std::vector<Effect>& effects) const {
   return roughness_m_per_sqrt_m(std::sqrt(noise_.heading_rad2_pm), recording_.robot.wheelbase_m);
 }
 
-std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& sets) const {
+std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& sets,
+                                      const std::vector<std::size_t>& some) const {
   const std::size_t runs = recording_.runs.size();
+  const std::vector<std::size_t> driven = some.empty() ? all_runs() : some;
   std::vector<Predicted> all(sets.size());
   for (std::size_t i = 0; i < sets.size(); ++i) {
     all[i].tracks.resize(runs);
@@ -104,16 +106,17 @@ std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& se
     all[i].counted.resize(runs);
     all[i].habits = simulator_.habits ? simulator_.habits(sets[i]) : Habits{};
   }
-  tbb::parallel_for(std::size_t(0), sets.size() * runs, [&](std::size_t i) {
-    const std::vector<Effect>& effects = sets[i / runs];
-    const std::size_t r = i % runs;
-    all[i / runs].tracks[r] = simulate_run(r, effects);
+  tbb::parallel_for(std::size_t(0), sets.size() * driven.size(), [&](std::size_t i) {
+    const std::size_t set = i / driven.size();
+    const std::vector<Effect>& effects = sets[set];
+    const std::size_t r = driven[i % driven.size()];
+    all[set].tracks[r] = simulate_run(r, effects);
     const bool counts = recording_.runs[r].has_commands && simulator_.commands;
     if (counts && (effects.empty() || acts_on_counts(effects))) {
-      all[i / runs].counted[r] = command_features(recording_.runs[r], simulator_.commands(r, effects), step_rad_);
+      all[set].counted[r] = command_features(recording_.runs[r], simulator_.commands(r, effects), step_rad_);
     }
   });
-  for (const RecordedRun& run : recording_.runs) simulated_s_ += double(sets.size()) * run.encoders.back().time_s;
+  for (const std::size_t r : driven) simulated_s_ += double(sets.size()) * recording_.runs[r].encoders.back().time_s;
   return all;
 }
 
@@ -137,6 +140,7 @@ Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const P
 std::vector<Eigen::VectorXd> Model::residuals(const Predicted& predicted) const {
   std::vector<Eigen::VectorXd> result(recording_.runs.size());
   tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t r) {
+    if (predicted.tracks[r].empty()) return;
     const Eigen::VectorXd white = filters_[r].whiten(track_error(predicted.tracks[r], nominal_.truth[r]));
     result[r].resize(white.size() + kFeatureRows);
     result[r] << white, feature_rows(r, measured_, predicted, scatter_.run_lag_s);
@@ -196,6 +200,7 @@ std::vector<RunGram> Model::grams(const std::vector<Eigen::VectorXd>& residual,
   const Eigen::Index shared = nuisances();
   const Eigen::Index own = nuisances_.own_sd.size();
   tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t r) {
+    if (residual[r].size() == 0) return;
     const Eigen::Index effects = columns.empty() ? 0 : columns[r].cols();
     const Eigen::Index more = local.empty() ? 0 : local[r].columns.cols();
     const Eigen::Index kept = 1 + shared + effects;
@@ -249,6 +254,15 @@ std::vector<std::size_t> Model::all_runs() const {
   std::vector<std::size_t> runs(recording_.runs.size());
   for (std::size_t r = 0; r < runs.size(); ++r) runs[r] = r;
   return runs;
+}
+
+std::vector<std::size_t> Model::one_of_each() const {
+  std::vector<std::size_t> first;
+  std::set<std::string> seen;
+  for (const std::size_t r : all_runs()) {
+    if (seen.insert(nominal_.conditions[r] + recording_.runs[r].direction).second) first.push_back(r);
+  }
+  return first;
 }
 
 }  // namespace umbsim::gap

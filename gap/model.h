@@ -57,6 +57,18 @@ struct Fit {
   bool is_local() const;       ///< one of them is at a place or a moment
 };
 
+/// Whitened residuals near some numbers of effects: residual - columns (p' - p), per run.
+struct Linearisation {
+  Eigen::VectorXd p;
+  std::vector<Eigen::VectorXd> residual;
+  std::vector<Eigen::MatrixXd> columns;
+
+  /// Squares by which the residuals at `to` are not where the derivatives put them, over those of the step.
+  double share_missed(const Eigen::VectorXd& to, const std::vector<Eigen::VectorXd>& there) const;
+  /// Goes to `to`, and makes the derivatives along the step what it showed.
+  void learn(const Eigen::VectorXd& to, const std::vector<Eigen::VectorXd>& there, const Eigen::VectorXd& scale);
+};
+
 /// A recording seen through the simulator: residuals, nuisances, noise, and the evidence for any combination of
 /// effects.
 class Model {
@@ -87,11 +99,13 @@ class Model {
   /// Friction at which the robot begins to slip on these runs; 0: at none.
   double slips_at() const { return nuisances_.slips_at; }
   std::vector<std::size_t> all_runs() const;
+  std::vector<std::size_t> one_of_each() const;  ///< the first run of every condition and direction
   double rows() const;  ///< numbers in all residuals that count
   double simulated_s() const { return simulated_s_; }
 
-  /// All runs under each set of effects.
-  std::vector<Predicted> predict(const std::vector<std::vector<Effect>>& sets) const;
+  /// All runs under each set of effects. `some`: only these runs are driven, the tracks of the others are empty.
+  std::vector<Predicted> predict(const std::vector<std::vector<Effect>>& sets,
+                                 const std::vector<std::size_t>& some = {}) const;
 
   /// One run under effects.
   std::vector<Pose2> simulate_run(std::size_t run, const std::vector<Effect>& effects) const {
@@ -102,7 +116,7 @@ class Model {
   std::vector<Eigen::MatrixXd> columns(const Predicted& at, const std::vector<Predicted>& stepped,
                                        const std::vector<double>& steps) const;
 
-  /// Whitened residual of every run.
+  /// Whitened residual of every run; empty where the run was not driven.
   std::vector<Eigen::VectorXd> residuals(const Predicted& predicted) const;
 
   /// Sum of squares, in standard deviations, by which a prediction misses counts against commands.
@@ -126,14 +140,15 @@ class Model {
   double log_chance(const std::vector<Effect>& effects) const;
 
   /// Log density of the data with the families' numbers held at p, against none: how well a start would do. `runs`: that
-  /// count; empty: all.
+  /// count, and are driven; empty: all.
   double density_at(const std::vector<Family>& families, const Eigen::VectorXd& p,
                     const std::vector<std::size_t>& runs = {}) const;
 
   /// Fits the free numbers of the families together, in the simulator. `start`: empty for the families' own. `runs`:
-  /// that count; empty: all.
+  /// that count; empty: all. `known`: derivatives that were taken elsewhere, and are used as long as they foretell
+  /// where a step leads.
   Fit fit(const std::vector<Family>& families, const Eigen::VectorXd& start = {}, int rounds = 7,
-          const std::vector<std::size_t>& runs = {}) const;
+          const std::vector<std::size_t>& runs = {}, const std::optional<Linearisation>& known = std::nullopt) const;
 
   /// The effects of a fit with their numbers taken from a subset of the runs: by the fit's derivatives, and where the
   /// simulator bends by fitting again from there.
@@ -146,7 +161,7 @@ class Model {
   std::vector<Eigen::MatrixXd> products_of_nuisances() const;
   double roughness_under(const std::vector<Effect>& effects) const;
   Eigen::VectorXd feature_rows(std::size_t run, const Predicted& a, const Predicted& b, double lag_sd_s) const;
-  void linearise(Fit& fit) const;
+  Linearisation linearised(const Fit& fit) const;
   void score(Fit& fit) const;
 
   const Recording& recording_;

@@ -92,17 +92,18 @@ void Screen::simulate_steps() {
 void Screen::try_frictions(const Fit& fit, Candidate& c) const {
   c.gain = -1e9;
   if (model_.slips_at() == 0) return;
-  const double before = model_.density_at(fit.families, fit.p);
-  const auto density = density_on(model_, fit, c.family);
+  const auto density = density_on(model_, fit, c.family, model_.one_of_each());
+  double highest = -1e300;
   for (const double less :
        {-0.02, -0.01, 0.0, 0.01, 0.02, 0.035, 0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.6, 0.9, 1.3, 1.8, 2.5}) {
     const double friction = model_.slips_at() * std::exp(-less);
-    const double gain = density(vector_of({friction})) - before - kTryCost;
-    if (gain <= c.gain) continue;
-    c.gain = gain;
+    const double there = density(vector_of({friction}));
+    if (there <= highest) continue;
+    highest = there;
     c.start[0] = friction;
     c.reach = vector_of({0.01 * friction});
   }
+  c.gain = density_on(model_, fit, c.family)(c.start) - model_.density_at(fit.families, fit.p) - kTryCost;
 }
 
 // What counts and commands show is tried as it is: beside another effect the derivatives see little of it.
@@ -118,7 +119,7 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
   // Two local events at once are not looked for: the second would mend the first one's shape.
   if (fit.is_local()) return;
   const auto offer = [&](Family family, const Starts& starts, const std::vector<double>& reach, int climbs,
-                         double gain) {
+                         double gain, const std::vector<std::size_t>& shown_by = {}) {
     if (excluded_.count(family.effect) > 0) return;
     Candidate c;
     c.family = std::move(family);
@@ -129,19 +130,22 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
     // Where grip is missing the best start says little of the top of its hill.
     c.any_start = c.family.effect == "slippery_patch";
     c.gain = gain - c.family.search_cost;
+    c.shown_by = shown_by;
     candidates.push_back(std::move(c));
   };
   for (std::size_t i = 0; i < std::min<std::size_t>(kicks.places.size(), 2); ++i) {
     const PlaceKick& k = kicks.places[i];
     if (k.gain < kLeastKick) break;
     if (k.lost_m > 0) {
-      offer(bump_family(k.x_m, k.y_m, k.heading_rad), cable_starts(k.lost_m, R), {0.002, 0.02}, 2, k.gain);
+      offer(bump_family(k.x_m, k.y_m, k.heading_rad), cable_starts(k.lost_m, R), {0.002, 0.02}, 2, k.gain,
+            k.shown_by);
     }
     const bool closely = i == 0 && fit.families.empty();
-    offer(lift_family(k.x_m, k.y_m), lift_starts(closely), {0.005, 0.01, 0.01}, closely ? 5 : 3, k.gain - 1);
+    offer(lift_family(k.x_m, k.y_m), lift_starts(closely), {0.005, 0.01, 0.01}, closely ? 5 : 3, k.gain - 1,
+          k.shown_by);
     const double grips = model_.slips_at() > 0 ? model_.slips_at() : 0.05;
     offer(patch_family(k.x_m, k.y_m), patch_starts(grips, closely), {0.02 * grips, 0.04, 0.04, 0.04}, closely ? 3 : 1,
-          k.gain - 2);
+          k.gain - 2, k.shown_by);
   }
   if (kicks.moments.empty() || kicks.moments.front().gain < kLeastKick) return;
   const Kick& k = kicks.moments.front();
@@ -151,6 +155,22 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
   const double kg = model_.mass_kg();
   offer(push_family(run.id, leg, std::max(0.0, std::round(seconds * 10 - 1) / 10), kg), push_starts(kg),
         {0.05 * kg, 0.05}, 2, k.gain);
+}
+
+std::optional<Linearisation> Screen::near(const Fit& fit, const Family& family) const {
+  const auto same = [&](const Family& f) { return f.effect == family.effect && f.variant == family.variant; };
+  const auto at = std::find_if(families_.begin(), families_.end(), same);
+  if (at == families_.end() || !at->from_zero) return std::nullopt;
+  const auto [first, count] = range_[std::size_t(at - families_.begin())];
+  Linearisation near{Eigen::VectorXd(fit.p.size() + count), model_.residuals(fit.predicted), {}};
+  near.p << fit.p, start_of(family);
+  for (std::size_t r = 0; r < columns_.size(); ++r) {
+    Eigen::MatrixXd both(columns_[r].rows(), fit.p.size() + count);
+    if (fit.p.size() > 0) both.leftCols(fit.p.size()) = fit.columns[r];
+    both.rightCols(count) = columns_[r].middleCols(first, count);
+    near.columns.push_back(std::move(both));
+  }
+  return near;
 }
 
 std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {

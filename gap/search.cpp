@@ -84,7 +84,8 @@ class Search {
       if (!from) return std::nullopt;
       Eigen::VectorXd start(base.p.size() + from->size());
       start << base.p, *from;
-      Fit fit = model_.fit(families, start, base.families.empty() ? kRounds : kFewerRounds);
+      Fit fit = model_.fit(families, start, base.families.empty() ? kRounds : kFewerRounds, {},
+                           screen_.near(base, c.family));
       // A place may have been fitted so that it makes up for what is only now beside it. What takes part in the contact
       // would mend how another engine's robot is shaken there.
       const bool less_than_seen = fit.log_evidence < base.log_evidence + kHeld * c.gain;

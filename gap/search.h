@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -22,12 +23,16 @@ class Screen {
     Eigen::VectorXd reach;                ///< first steps of a search from the best of them; empty: none
     int climbs = 1;                       ///< from how many of the best of them
     bool any_start = false;               ///< climbed however little the best of them explains
+    std::vector<std::size_t> shown_by;    ///< runs that show it most, on which starts are tried first; empty: all
     double gain = 0;                      ///< log evidence expected on top of the fit
     /// Of its numbers against none, were it the only effect asked about (chi-squared); 1 where a family bends.
     double p_value = 1;
   };
   /// Families that could explain what `fit` leaves, best first; local ones (places, moments) are searched for anew.
   std::vector<Candidate> on_top_of(const Fit& fit) const;
+
+  /// Of a fit and a family that acts in proportion on top of it, whose derivatives were taken at the nominal robot.
+  std::optional<Linearisation> near(const Fit& fit, const Family& family) const;
 
   const std::vector<Family>& families() const { return families_; }
 
