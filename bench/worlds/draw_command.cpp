@@ -4,6 +4,8 @@
 
 #include "bench/worlds/commands.h"
 #include "bench/worlds/draw.h"
+#include "bench/worlds/worlds_list.h"
+#include "core/yaml_reader.h"
 
 namespace umbsim::worlds {
 namespace {
@@ -15,11 +17,28 @@ struct Arguments {
   int jobs = 0;
 };
 
-void draw(const Arguments& a) {
+bool is_list(const std::string& file) {
+  YamlMap map(YamlValue::load(file));
+  return map.at("format").choice({"umbsim-worlds/1", "umbsim-worlds-list/1"}) == "umbsim-worlds-list/1";
+}
+
+TrialFolder folder_of(const Arguments& a, const std::string& name) {
+  return TrialFolder(a.folder.empty() ? "results/worlds-" + name : a.folder);
+}
+
+DrawResult draw_plan(const Arguments& a) {
   const WorldsPlan plan = read_worlds(a.file);
-  const TrialFolder folder(a.folder.empty() ? "results/worlds-" + plan.name : a.folder);
-  const DrawResult r = draw_worlds(plan, folder, parse_shard(a.shard), a.jobs);
-  fmt::print("{}: {} of {} cases stand\n", folder.root.string(), r.finished, r.cases);
+  return draw_worlds(plan, folder_of(a, plan.name), parse_shard(a.shard), a.jobs);
+}
+
+DrawResult draw_list(const Arguments& a) {
+  const WorldsList list = read_worlds_list(a.file);
+  return draw_all(source_of(list), folder_of(a, list.name), parse_shard(a.shard), a.jobs);
+}
+
+void draw(const Arguments& a) {
+  const DrawResult r = is_list(a.file) ? draw_list(a) : draw_plan(a);
+  fmt::print("{}: {} of {} cases stand\n", r.root.string(), r.finished, r.cases);
   if (r.drawn_now > 0) {
     const double tried = double(r.drawn_now) + r.worlds_redrawn;
     fmt::print(
@@ -35,8 +54,8 @@ void draw(const Arguments& a) {
 void add_draw_command(CLI::App& app) {
   const auto a = std::make_shared<Arguments>();
   CLI::App* command =
-      app.add_subcommand("draw", "Draw worlds, drive them, seal the answers; does what is not done yet");
-  command->add_option("worlds", a->file, "Worlds file (YAML, docs/worlds.md)")->required();
+      app.add_subcommand("draw", "Draw worlds or the cases of a list, drive them, seal the answers; does what is not done yet");
+  command->add_option("worlds", a->file, "Plan of worlds or list of cases (YAML, docs/worlds.md)")->required();
   command->add_option("-o,--out", a->folder, "Folder of the worlds; default results/worlds-<name>");
   command->add_option("--shard", a->shard, "Do only part i of n of the cases: i/n")->capture_default_str();
   command->add_option("-j,--jobs", a->jobs, "Cases at the same time; 0: one per core")->check(CLI::Range(0, 1024));

@@ -35,6 +35,19 @@ class OpenLoop : public Driver {
   WheelSpeeds last_;
 };
 
+/// The same driver on motors whose set-points do not ramp.
+class Jumping : public Driver {
+ public:
+  explicit Jumping(std::unique_ptr<Driver> driver) : driver_(std::move(driver)) {}
+  WheelSpeeds command(double time_s, const Seen& seen) override { return driver_->command(time_s, seen); }
+  bool done() const override { return driver_->done(); }
+  int segment() const override { return driver_->segment(); }
+  bool jumps() const override { return true; }
+
+ private:
+  std::unique_ptr<Driver> driver_;
+};
+
 std::unique_ptr<Driver> closed_loop(const DriverChoice& c, const Way& way, const DriveGeometry& believed,
                                     RandomStream random) {
   if (c.kind == "own") return make_own(way, believed, 1 / c.rate_hz);
@@ -68,6 +81,7 @@ DriverChoice draw_driver(const std::string& kind, RandomStream& random) {
 std::unique_ptr<Driver> make_driver(const DriverChoice& choice, const Way& way, const DriveGeometry& believed,
                                     RandomStream random) {
   std::unique_ptr<Driver> driver = closed_loop(choice, way, believed, std::move(random));
+  if (choice.jumps) driver = std::make_unique<Jumping>(std::move(driver));
   if (!choice.open_loop) return driver;
   return std::make_unique<OpenLoop>(std::move(driver), believed, 1 / choice.rate_hz);
 }

@@ -27,6 +27,7 @@ struct DriverChoice {
   double look_ahead_m = 0.4;      ///< pursuit
   double dead_time_s = 0.25;      ///< joystick: between what the eye sees and what the hand does
   double tremor_radps = 0.03;     ///< joystick: standard deviation of the hand's error in turning
+  bool jumps = false;             ///< set-points jump at the start of a period, whatever the kind
 };
 
 DriverChoice draw_driver(const std::string& kind, RandomStream& random);

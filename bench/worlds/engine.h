@@ -9,6 +9,7 @@
 
 #include "core/pose2.h"
 #include "core/random.h"
+#include "core/yaml_reader.h"
 #include "effects/catalogue.h"
 #include "effects/rig.h"
 #include "umbmark/course.h"
@@ -79,6 +80,8 @@ struct EngineKind {
   std::string name;  ///< as in a worlds file: ours | bullet | mujoco | planar
   std::string text;  ///< one line
   std::vector<EngineOption> options;
+  /// What a list of cases may ask of an option; where it is not named, the range that is drawn from.
+  std::map<std::string, Bounds> allowed;
   /// How each effect of the catalogue is physics here, one line each. An effect that is not listed cannot be expressed
   /// and is never drawn in this engine.
   std::map<std::string, std::string> expresses;

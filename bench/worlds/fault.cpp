@@ -159,6 +159,15 @@ ScaledFault scale_fault(const DrawnFault& drawn, double wanted, const WorldScale
   return best;
 }
 
+Faults all_of(const std::vector<ScaledFault>& faults) {
+  Faults all;
+  for (const ScaledFault& f : faults) {
+    all.effects.insert(all.effects.end(), f.faults.effects.begin(), f.faults.effects.end());
+    all.outside.insert(all.outside.end(), f.faults.outside.begin(), f.faults.outside.end());
+  }
+  return all;
+}
+
 Json fault_json(const ScaledFault& fault, const Pose2& X_TW) {
   Json json = Json::object();
   if (!fault.faults.effects.empty())

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "bench/worlds/severity.h"
 #include "gap/trial/answers.h"
 
@@ -23,12 +25,15 @@ DrawnFault draw_fault(const std::string& name, const World& world, RandomStream&
 struct ScaledFault {
   std::string name;
   Faults faults;
-  double drawn = 0;       ///< severity that was wanted
-  WorldScale::Seen seen;  ///< severity that it has
+  std::optional<double> drawn = {};  ///< severity that was wanted
+  WorldScale::Seen seen;             ///< severity that it has
 };
 
 /// Looks for the strength with the wanted severity by driving in the guide.
 ScaledFault scale_fault(const DrawnFault& drawn, double wanted, const WorldScale& guide);
+
+/// All of them at once.
+Faults all_of(const std::vector<ScaledFault>& faults);
 
 /// Parameters in the frame of the tracker, as a diagnosis can see them.
 Json fault_json(const ScaledFault& fault, const Pose2& X_TW);

@@ -38,7 +38,8 @@ RecordedRun run(const std::string& id, const std::string& direction) {
   return r;
 }
 
-std::vector<RecordedRun> squares(const std::string& set, const Course& c, const WorldRobot& robot) {
+std::vector<RecordedRun> squares(const std::string& set, const Course& c, const WorldRobot& robot,
+                                 double rolling_radius_m) {
   std::vector<RecordedRun> runs;
   if (set == "one_way") {
     for (int k = 1; k <= kRuns; ++k) runs.push_back(run(fmt::format("cw-{}", k), "cw"));
@@ -57,7 +58,7 @@ std::vector<RecordedRun> squares(const std::string& set, const Course& c, const 
     if (planned.payload_kg > 0) r.payload_kg = rounded(kPayloadShare * robot.model.base.mass_kg, 0.01);
     if (planned.turn_radius_m > 0) {
       r.turn = "arc";
-      r.turn_radius_m = rounded(kTurnRadius * c.side_m, 0.01);
+      r.turn_radius_m = rolling_radius_m;
     }
     runs.push_back(r);
   }
@@ -112,16 +113,11 @@ void plan_free(PlannedRuns& planned, const Course& c, RandomStream& random) {
   }
 }
 
-Course course_of(const RecordedPath& path, const RecordedRun& r) { return demanded_course(path, r, {}); }
-
-}  // namespace
-
-PlannedRuns plan_runs(const std::string& set, const WorldRobot& robot, double rate_hz, RandomStream& random) {
+PlannedRuns without_runs(const std::string& set, const WorldRobot& robot, const Course& c, double rate_hz) {
   PlannedRuns planned;
   planned.set = set;
   Recording& r = planned.recording;
   r.title = "recording";
-  const Course c = draw_limits(robot, random);
   r.robot = {"robot.urdf", robot.model.wheels[0].radius_m, robot.model.wheelbase_m(), robot.ticks_per_revolution};
   r.path.side_m = c.side_m;
   r.path.linear_speed_mps = c.linear_speed_mps;
@@ -129,16 +125,30 @@ PlannedRuns plan_runs(const std::string& set, const WorldRobot& robot, double ra
   r.path.linear_acceleration_mps2 = c.linear_acceleration_mps2;
   r.path.angular_acceleration_radps2 = c.angular_acceleration_radps2;
   r.encoder_rate_hz = rate_hz;
-  if (set == "circles" || set == "eights" || set == "free") {
-    plan_free(planned, c, random);
-    return planned;
-  }
-  r.runs = squares(set, c, robot);
+  return planned;
+}
+
+}  // namespace
+
+PlannedRuns plan_squares(const std::string& set, const WorldRobot& robot, const Course& course, double rolling_radius_m,
+                         double rate_hz) {
+  PlannedRuns planned = without_runs(set, robot, course, rate_hz);
+  Recording& r = planned.recording;
+  r.runs = squares(set, course, robot, rolling_radius_m);
   for (const RecordedRun& each : r.runs) {
-    const Course course = course_of(r.path, each);
+    const Course limits = demanded_course(r.path, each, {});
     const Direction direction = each.direction == "cw" ? Direction::cw : Direction::ccw;
-    planned.ways.push_back({course, Plan(course, direction).segments()});
+    planned.ways.push_back({limits, Plan(limits, direction).segments()});
   }
+  return planned;
+}
+
+PlannedRuns plan_runs(const std::string& set, const WorldRobot& robot, double rate_hz, RandomStream& random) {
+  const Course c = draw_limits(robot, random);
+  if (std::find(std::begin(kSquareSets), std::end(kSquareSets), set) != std::end(kSquareSets))
+    return plan_squares(set, robot, c, rounded(kTurnRadius * c.side_m, 0.01), rate_hz);
+  PlannedRuns planned = without_runs(set, robot, c, rate_hz);
+  plan_free(planned, c, random);
   return planned;
 }
 

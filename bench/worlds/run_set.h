@@ -24,6 +24,13 @@ struct PlannedRuns {
 /// too, as far as the format can say it.
 PlannedRuns plan_runs(const std::string& set, const WorldRobot& robot, double rate_hz, RandomStream& random);
 
+/// The sets that are squares.
+constexpr const char* kSquareSets[] = {"plain_2", "plain_5", "recommended", "one_way"};
+
+/// The same for a set of squares, with this course; rolling turns have the radius `rolling_radius_m`.
+PlannedRuns plan_squares(const std::string& set, const WorldRobot& robot, const Course& course, double rolling_radius_m,
+                         double rate_hz);
+
 /// The way of run `number` as the effects' demand asks for it.
 Way demanded_way(const PlannedRuns& planned, std::size_t number, const Demand& demand);
 

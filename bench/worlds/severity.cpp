@@ -40,7 +40,7 @@ WorldScale::WorldScale(const World& world, const World& guide, std::uint64_t see
   nominal_run_ = drive_world(world_, clean());
   const Recording nominal = record_exactly(world_, nominal_run_, kFiner);
   for (const Signal signal : kSignals) nominal_[std::size_t(signal)] = signal_track(nominal, signal);
-  Drive rough{{}, usual_noise(world.noise_level), seed, 1};
+  Drive rough{{}, world.noise, seed, 1};
   const DrivenWorld guide_nominal = world.engine == guide.engine ? nominal_run_ : drive_world(guide, clean());
   const Recording expected = record_exactly(guide, guide_nominal, kFiner);
   const Recording measured = noisy(guide, drive_world(guide, rough), seed);

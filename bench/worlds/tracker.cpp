@@ -36,19 +36,13 @@ class Dropouts {
 
 }  // namespace
 
-TrackerChoice draw_tracker(const std::string& kind, RandomStream& random) {
+TrackerChoice exact_tracker(const std::string& kind) {
   TrackerChoice t;
   t.kind = kind;
-  t.X_TW = {random.normal(0, 0.005), random.normal(0, 0.005), random.normal(0, 0.01)};
-  t.X_BM = {random.normal(0, 0.003), random.normal(0, 0.003), random.normal(0, 0.005)};
-  const double u = random.uniform(), late = random.uniform(), drift = random.normal(), lost = random.uniform();
   if (kind == "camera") {
-    t.rate_hz = std::round(10 + 20 * u);
+    t.rate_hz = 20;
     t.position_sd_m = 0.01;
     t.heading_sd_rad = 0.01;
-    t.delay_s = 0.05 + 0.1 * late;
-    t.clock_drift = 1e-4 * drift;  // a camera's free-running quartz and frame clock
-    t.dropout = 0.1 * lost;
   } else if (kind == "total_station") {
     t.rate_hz = 5;
     t.position_sd_m = 0.002;
@@ -60,6 +54,20 @@ TrackerChoice draw_tracker(const std::string& kind, RandomStream& random) {
     t.end_points = true;
   } else if (kind != "mocap") {
     throw InputError("no tracker '" + kind + "'");
+  }
+  return t;
+}
+
+TrackerChoice draw_tracker(const std::string& kind, RandomStream& random) {
+  TrackerChoice t = exact_tracker(kind);
+  t.X_TW = {random.normal(0, 0.005), random.normal(0, 0.005), random.normal(0, 0.01)};
+  t.X_BM = {random.normal(0, 0.003), random.normal(0, 0.003), random.normal(0, 0.005)};
+  const double u = random.uniform(), late = random.uniform(), drift = random.normal(), lost = random.uniform();
+  if (kind == "camera") {
+    t.rate_hz = std::round(10 + 20 * u);
+    t.delay_s = 0.05 + 0.1 * late;
+    t.clock_drift = 1e-4 * drift;  // a camera's free-running quartz and frame clock
+    t.dropout = 0.1 * lost;
   }
   return t;
 }

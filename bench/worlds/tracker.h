@@ -26,6 +26,8 @@ struct TrackerChoice {
   Pose2 X_BM;               ///< the marker on the robot, off the axle's middle
 };
 
+/// What this kind is like before anything is wrong with it.
+TrackerChoice exact_tracker(const std::string& kind);
 TrackerChoice draw_tracker(const std::string& kind, RandomStream& random);
 
 /// What the tracker writes down of a run whose true poses are `dense` (increasing times, first to last moment of the

@@ -46,6 +46,7 @@ World draw_world(const EngineKind& engine, const WorldChoices& choices, RandomSt
   w.tracker = draw_tracker(pick(choices.trackers, random), random);
   w.runs = plan_runs(pick(choices.runs, random), w.robot, w.driver.rate_hz, random);
   w.noise_level = random.uniform(0.7, 1.4);
+  w.noise = usual_noise(w.noise_level);
   Recording& r = w.runs.recording;
   r.truth_kind = w.tracker.end_points ? "endpoints" : "track";
   r.truth_position_sd_m = w.tracker.position_sd_m;

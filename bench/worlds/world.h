@@ -46,7 +46,8 @@ struct World {
   DriverChoice driver;
   TrackerChoice tracker;
   PlannedRuns runs;
-  double noise_level = 1;
+  double noise_level = 1;  ///< of the trial's
+  Noise noise = usual_noise(1);
 };
 
 /// What to draw worlds from.

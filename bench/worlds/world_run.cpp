@@ -13,6 +13,8 @@ namespace umbsim::worlds {
 namespace {
 
 constexpr double kTipped_rad = 0.5;
+constexpr double kFarOff = 0.25;  // of the way: a nominal robot that is so far from its counts does not roll
+constexpr double kFarTurned_rad = 0.7;
 
 // The robot as it really is in this run.
 Rig rig_of(const World& w, const Drive& drive, std::size_t number) {
@@ -143,6 +145,12 @@ DrivenWorld drive_world(const World& world, const Drive& drive) {
 
 namespace {
 
+double length_m(const Way& way) {
+  double sum = 0;
+  for (const Segment& s : way.segments) sum += s.length_m;
+  return sum;
+}
+
 // A tracker without heading leaves the column to the experimenter: he writes what the robot's counts add up to.
 void write_counted_headings(const RecordedRobot& robot, RecordedRun& run) {
   const double rad_per_count = 2 * M_PI * robot.wheel_radius_m / robot.ticks_per_revolution / robot.wheelbase_m;
@@ -155,6 +163,19 @@ void write_counted_headings(const RecordedRobot& robot, RecordedRun& run) {
 }
 
 }  // namespace
+
+bool drives(const World& w, const DrivenWorld& driven) {
+  for (std::size_t i = 0; i < driven.runs.size(); ++i) {
+    if (!driven.arrived[i]) return false;
+    const RecordedRun& run = driven.runs[i];
+    const Segment& last = Plan(w.runs.ways[i].limits, w.runs.ways[i].segments).segments().back();
+    const Pose2 X_SE = last.X_SB_start * arc(last.length_m, last.angle_rad);
+    const Pose2 miss = inverse(run.truth.front().X_WB * X_SE) * run.truth.back().X_WB;
+    if (!(std::hypot(miss.x_m, miss.y_m) < kFarOff * length_m(w.runs.ways[i]))) return false;
+    if (!(std::abs(miss.theta_rad) < kFarTurned_rad)) return false;
+  }
+  return true;
+}
 
 Recording record(const World& world, const DrivenWorld& driven, std::uint64_t seed) {
   Recording r = world.runs.recording;

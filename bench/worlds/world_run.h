@@ -23,6 +23,9 @@ struct DrivenWorld {
 /// RunError where the robot falls over or the engine fails, InputError where the engine cannot build it.
 DrivenWorld drive_world(const World& world, const Drive& drive);
 
+/// Whether every run was driven to its end by a robot that stands on its wheels and rolls.
+bool drives(const World& world, const DrivenWorld& driven);
+
 /// As an experimenter with this world's tracker would write it down; counts in the unit that he believes in.
 Recording record(const World& world, const DrivenWorld& driven, std::uint64_t seed);
 

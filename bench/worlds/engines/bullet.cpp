@@ -100,6 +100,12 @@ EngineKind bullet_engine() {
       {"velocity_gain", "1", Draw::uniform, 0.3, 1, {}, "of the joints' motors; 1 is the default"},
       {"body_damping", "", Draw::choice, 0, 0, {"0", "0.04"}, "of speed and turning, per second; 0.04 is the default"},
   };
+  kind.allowed = {{"step_s", Bounds::between(0.0001, 0.02)},
+                  {"iterations", Bounds::between(1, 10000)},
+                  {"torsion_m", Bounds::between(0, 0.05)},
+                  {"rolling_m", Bounds::between(0, 0.01)},
+                  {"erp", Bounds::between(0, 1)},
+                  {"velocity_gain", {0, 1, true}}};
   kind.expresses = expressed();
   kind.build = build;
   return kind;

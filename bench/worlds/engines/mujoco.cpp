@@ -132,6 +132,16 @@ EngineKind mujoco_engine() {
       {"armature_over_wheel", "1", Draw::log_uniform, 1, 10, {}, "armature over the wheel's inertia"},
       {"joint_damping", "1", Draw::log_uniform, 0.0001, 0.003, {}, "damping of the wheels' joints over kv"},
   };
+  kind.allowed = {{"step_s", Bounds::between(0.0001, 0.02)},
+                  {"torsion_m", Bounds::between(0, 0.05)},
+                  {"rolling_m", Bounds::between(0, 0.01)},
+                  {"impratio", Bounds::between(0.1, 1e6)},
+                  {"impedance", Bounds::between(0.01, 0.9999)},
+                  {"contact_time_steps", Bounds::between(2, 1000)},
+                  {"contact_damping_ratio", Bounds::between(0.1, 100)},
+                  {"servo_time_s", Bounds::between(0.001, 1)},
+                  {"armature_over_wheel", Bounds::between(0, 1000)},
+                  {"joint_damping", Bounds::between(0, 1)}};
   kind.expresses = expressed();
   kind.build = build;
   return kind;
