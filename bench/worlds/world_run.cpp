@@ -168,7 +168,8 @@ bool drives(const World& w, const DrivenWorld& driven) {
   for (std::size_t i = 0; i < driven.runs.size(); ++i) {
     if (!driven.arrived[i]) return false;
     const RecordedRun& run = driven.runs[i];
-    const Segment& last = Plan(w.runs.ways[i].limits, w.runs.ways[i].segments).segments().back();
+    const Plan plan(w.runs.ways[i].limits, w.runs.ways[i].segments);
+    const Segment& last = plan.segments().back();
     const Pose2 X_SE = last.X_SB_start * arc(last.length_m, last.angle_rad);
     const Pose2 miss = inverse(run.truth.front().X_WB * X_SE) * run.truth.back().X_WB;
     if (!(std::hypot(miss.x_m, miss.y_m) < kFarOff * length_m(w.runs.ways[i]))) return false;
