@@ -45,10 +45,9 @@ struct DiagnoseArguments {
 
 // The scenario with the diagnosed effects added; each effect once. Wheels that scrub need the floor that they scrub on.
 Scenario twin(Scenario scenario, const Replay& replay, const gap::Diagnosis& d) {
-  if (!d.causes.empty() && d.causes.front().name != "none" && d.causes.front().name != "unknown" &&
-      !d.twin_is_nominal) {
+  if (!d.twin_is_nominal()) {
     std::vector<Effect> once;
-    for (const Effect& e : combined(scenario.effects, gap::twin_effects(d.causes.front().fit))) {
+    for (const Effect& e : combined(scenario.effects, gap::twin_effects(d.twin))) {
       const auto there =
           std::find_if(once.begin(), once.end(), [&](const Effect& other) { return other.info == e.info; });
       if (there == once.end())

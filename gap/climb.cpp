@@ -12,12 +12,13 @@ namespace {
 
 constexpr double kFirstStep = 0.4;  // of a number, where a search begins
 constexpr int kHalvings = 4;
-constexpr double kOneHill = 2.1;  // first steps, within which a worse start is on the way to the same top
+constexpr double kClosely = 0.25;  // of first steps, near the top
+constexpr double kOneHill = 2.1;   // first steps, within which a worse start is on the way to the same top
 constexpr double kReachAgain = 2;  // steps of each number, to which a place is looked for again
 constexpr int kClimbsAgain = 2;
-constexpr int kMostTries = 200;  // simulations of the runs in the search for a place
-constexpr std::ptrdiff_t kBegunOn = 3;   // runs
-constexpr std::size_t kKeptOfFew = 3;    // starts for each climb, to be tried on all runs
+constexpr int kMostTries = 200;         // simulations of the runs in the search for a place
+constexpr std::ptrdiff_t kBegunOn = 3;  // runs
+constexpr std::size_t kKeptOfFew = 3;   // starts for each climb, to be tried on all runs
 
 }  // namespace
 
@@ -40,10 +41,10 @@ std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, con
 
 namespace {
 
-// The top of the hill from one start.
+// The top of the hill from one start; `closely`: a start that is near it.
 Eigen::VectorXd climbed(const std::function<double(const Eigen::VectorXd&)>& density, const Screen::Candidate& c,
-                        const Eigen::VectorXd& start) {
-  Eigen::VectorXd reach = c.reach;
+                        const Eigen::VectorXd& start, bool closely) {
+  Eigen::VectorXd reach = closely ? kClosely * c.reach : c.reach;
   Eigen::VectorXd min(start.size());
   Eigen::VectorXd max(start.size());
   for (Eigen::Index i = 0; i < start.size(); ++i) {
@@ -51,7 +52,7 @@ Eigen::VectorXd climbed(const std::function<double(const Eigen::VectorXd&)>& den
     min[i] = c.family.parameters[std::size_t(i)].min;
     max[i] = c.family.parameters[std::size_t(i)].max;
   }
-  return pattern_search(density, start, reach, min, max, kHalvings, kMostTries);
+  return pattern_search(density, start, reach, min, max, closely ? kHalvings - 2 : kHalvings, kMostTries);
 }
 
 }  // namespace
@@ -98,13 +99,14 @@ std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& bas
   double highest = -1e301;
   Eigen::VectorXd best;
   for (const Eigen::VectorXd& start : c.starts) {
-    const Eigen::VectorXd top = climbed(density_on(model, base, c.family, begun_on(c)), c, start);
+    const Eigen::VectorXd top = climbed(density_on(model, base, c.family, begun_on(c)), c, start, false);
     const double there = density(top);
     if (there <= highest) continue;
     highest = there;
     best = top;
   }
-  return best;
+  // Whether a wheel comes across a place is a matter of millimetres: the few runs do not speak for all.
+  return c.shown_by.empty() ? best : climbed(density, c, best, true);
 }
 
 Eigen::VectorXd climbed_again(const Model& model, const Fit& base, const Family& more, const Eigen::VectorXd& numbers) {

@@ -53,6 +53,8 @@ Closure held_out_closure(const Model& model, const Fit& fit) {
   std::vector<double> after(runs);
   const auto noise = noise_misfits_m2(model, kDraws);
   std::vector<double> floor(runs);
+  const std::size_t parts = fit.families.size();
+  std::vector<TrackMisfit> without(parts);  // sums over the runs
   double before_rad2 = 0;
   double after_rad2 = 0;
   for (const auto& [condition, held] : conditions) {
@@ -60,15 +62,21 @@ Closure held_out_closure(const Model& model, const Fit& fit) {
     for (const std::size_t r : model.all_runs()) {
       if (std::find(held.begin(), held.end(), r) == held.end()) rest.push_back(r);
     }
-    const std::vector<Effect> effects = model.fitted_on(fit, rest);
+    const Eigen::VectorXd numbers = model.numbers_on(fit, rest);
     for (const std::size_t r : held) {
       const TrackMisfit plain = aligned_misfit(model, r, model.nominal().tracks[r]);
-      const TrackMisfit with = aligned_misfit(model, r, driven(model, r, effects, fit));
+      const TrackMisfit with = aligned_misfit(model, r, driven(model, r, fit.effects_at(numbers), fit));
       before[r] = plain.mean_square_m2;
       after[r] = with.mean_square_m2;
       floor[r] = mean(noise[r]);
       before_rad2 += plain.end_rad * plain.end_rad / double(runs);
       after_rad2 += with.end_rad * with.end_rad / double(runs);
+      for (std::size_t i = 0; i < parts; ++i) {
+        const TrackMisfit less =
+            parts == 1 ? plain : aligned_misfit(model, r, driven(model, r, fit.effects_at(numbers, i), fit));
+        without[i].mean_square_m2 += less.mean_square_m2 / double(runs);
+        without[i].end_rad += less.end_rad * less.end_rad / double(runs);
+      }
     }
   }
   const auto fraction = [&](const std::vector<std::size_t>& chosen) {
@@ -110,6 +118,10 @@ Closure held_out_closure(const Model& model, const Fit& fit) {
   closure.floor_mm = rms_mm(floor);
   closure.before_deg = degrees(std::sqrt(before_rad2));
   closure.after_deg = degrees(std::sqrt(after_rad2));
+  for (const TrackMisfit& less : without) {
+    closure.worth.push_back({1000 * std::sqrt(less.mean_square_m2) - closure.after_mm,
+                             degrees(std::sqrt(less.end_rad)) - closure.after_deg});
+  }
   return closure;
 }
 

@@ -1,5 +1,7 @@
 #include "gap/diagnose.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,8 +48,8 @@ double late_left(const Model& model, const Fit& fit, const Thresholds& t) {
   return std::max(0.0, late_gain(model, fit) - t.late);
 }
 
-// As a share of what is explained. A cable shakes each engine's robot in its own way; where a push, a patch or a hole is
-// named the rest of what happened there is its doing, too.
+// As a share of what is explained. A cable shakes each engine's robot in its own way; where a push, a patch or a hole
+// is named the rest of what happened there is its doing, too.
 double sudden_that_may_be_left(const Fit& fit, const Thresholds& t) {
   const auto cable = [](const Family& f) { return f.effect == "bump"; };
   const bool shakes = std::any_of(fit.families.begin(), fit.families.end(), cable);
@@ -91,11 +93,50 @@ void find_place(const Model& model, const Fit& fit, Diagnosis& d) {
   }
 }
 
-// The twin of an unknown cause is the scenario as it was.
+// The twin is the scenario as it was.
 void add_nothing(Closure& closure) {
   closure.fraction = closure.ci95[0] = closure.ci95[1] = 0;
   closure.after_mm = closure.before_mm;
   closure.after_deg = closure.before_deg;
+  closure.worth.clear();
+}
+
+// Whether an explanation takes more millimetres off held-out runs than it leaves, or all that is beyond noise. Whatever
+// rolls and counts does so alike in every engine: seen by a tracker that is known, what it leaves speaks against it.
+bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure) {
+  const bool may_err = !fit.only_rolls() || tracker_is_free(model.recording());
+  const bool takes_all = closure.after_mm <= closure.most_noise_mm;
+  return closure.known && may_err && (takes_all || closure.together().mm > closure.after_mm);
+}
+
+// Without the effects that foretell held-out runs worse than the others do alone, and the closure of what stays.
+void keep_what_foretells(const Model& model, Fit& twin, Closure& closure) {
+  while (closure.known && closure.worth.size() > 1) {
+    const auto less = [](const Worth& a, const Worth& b) { return a.mm < b.mm; };
+    const auto least = std::min_element(closure.worth.begin(), closure.worth.end(), less);
+    if (least->mm >= 0) return;
+    const Fit fewer = model.without(twin, std::size_t(least - closure.worth.begin()));
+    const Closure with_fewer = held_out_closure(model, fewer);
+    if (!with_fewer.known || with_fewer.after_mm >= closure.after_mm) return;
+    twin = fewer;
+    closure = with_fewer;
+  }
+}
+
+// What the catalogue would make of the rest: `leftover` is the log evidence for errors of no particular cause.
+Remainder remainder_of(const Model& model, const Screen& screen, const Fit& none, const Diagnosis& d, double leftover) {
+  Remainder rest;
+  const Fit& twin = d.twin_is_nominal() ? none : d.twin;
+  rest.mm = d.closure.known ? d.closure.after_mm : 1000 * std::sqrt(mean_square_error_m2(model, twin.predicted.tracks));
+  rest.share = d.closure.known ? std::max(0.0, 1 - d.closure.fraction) : d.twin_is_nominal() ? 1 : 0;
+  const auto unfitted = [](const Family& f) { return f.shape_unknown; };
+  const auto& families = d.explanation.families;
+  if (!d.unexplained || std::any_of(families.begin(), families.end(), unfitted)) return rest;
+  const std::vector<Screen::Candidate> more = screen.on_top_of(d.explanation);
+  if (more.empty() || more.front().gain <= 0) return rest;
+  rest.pattern = pattern_of(more.front().family.effect);
+  rest.in_catalogue = more.front().gain > 0.5 * leftover;
+  return rest;
 }
 
 // What is named in place of unknown, ahead of what the search found best.
@@ -118,7 +159,8 @@ double may_be_left(const Fit& fit, double explained, const Thresholds& t) {
 }
 
 double enough_to_detect(const std::vector<std::string>& effects, const Thresholds& t) {
-  // A contact's width does what a wheelbase does, and engines differ in turns by no more for the one than for the other.
+  // A contact's width does what a wheelbase does, and engines differ in turns by no more for the one than for the
+  // other.
   const auto same_for_all_engines = [](const std::string& e) {
     return only_rolls(e) || is_demand(e) || e == "contact_patch";
   };
@@ -182,7 +224,8 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     const bool little = left_generic > may_be_left(best, explained, t);
     const bool other_kind = no_steady_error > std::max(t.detect, t.sudden_or_late_left * explained) ||
                             sudden > std::max(t.detect, sudden_that_may_be_left(best, t) * explained);
-    bool unknown = other_kind || (d.unexplained && (!foretells || little || lack > t.misfit_left * lack_none));
+    bool unknown = !worth_more_than_rest(model, best, d.closure) &&
+                   (other_kind || (d.unexplained && (!foretells || little || lack > t.misfit_left * lack_none)));
     if (unknown && excluded.count("uneven_floor") == 0) {
       if (const std::optional<Fit> uneven = with_uneven_floor(model, none, best, lack, t)) {
         if (uneven->families.size() == 1) add_nothing(d.closure);
@@ -210,12 +253,19 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
     std::stable_sort(d.causes.begin(), d.causes.end(),
                      [](const Cause& a, const Cause& b) { return a.score > b.score; });
     d.left_over = describe_left_over(model, best);
+    d.explanation = best;
+    // What foretells held-out runs is in the twin, whatever remains.
+    Fit twin = best;
+    keep_what_foretells(model, twin, d.closure);
     const bool misleads = d.closure.known && d.closure.fraction < 0;
-    if (misleads && !unknown) {
+    if (!misleads && !(unknown && (!d.closure.known || d.closure.fraction == 0))) d.twin = std::move(twin);
+    if (d.twin_is_nominal()) add_nothing(d.closure);
+    if (misleads && !unknown)
       d.limits.push_back("what was found foretells the other runs badly: the twin goes without it");
-    }
-    d.twin_is_nominal = unknown || misleads;
-    if (d.twin_is_nominal) add_nothing(d.closure);
+    else if (!d.twin_is_nominal() && d.twin.families.size() < best.families.size())
+      d.limits.push_back(
+          fmt::format("the twin holds {} alone: the rest foretells held-out runs no better", d.twin.name()));
+    d.remainder = remainder_of(model, screen, none, d, leftover);
   }
   give_probabilities(d.causes);
   const double before_m2 = mean_square_error_m2(model, none.predicted.tracks);

@@ -82,6 +82,12 @@ struct LeftOver {
   std::string where;  ///< of more than half of it: "in the turns", "along the legs", "in run cw-3"
 };
 
+/// By how much tracks and end headings of held-out runs come nearer with something than without it, root mean squares.
+struct Worth {
+  double mm = 0;
+  double deg = 0;
+};
+
 /// Held-out closure: every condition predicted with parameters fitted on the others.
 struct Closure {
   bool known = false;
@@ -93,6 +99,17 @@ struct Closure {
   double most_noise_mm = 0;  ///< and what it exceeds once in twenty times
   double before_deg = 0;  ///< root mean square heading error at the ends
   double after_deg = 0;
+  std::vector<Worth> worth;  ///< of each of the fit's families, beside the others
+
+  Worth together() const { return {before_mm - after_mm, before_deg - after_deg}; }
+};
+
+/// What the twin leaves of the gap.
+struct Remainder {
+  double mm = 0;        ///< root mean square position error along the runs: held out where some could be, else of all
+  double share = 1;     ///< of the squared error beyond noise
+  std::string pattern;  ///< of the effect of the catalogue that would take most of it
+  bool in_catalogue = false;  ///< that effect would take half of what errors of no particular cause could
 };
 
 struct Diagnosis {
@@ -109,9 +126,12 @@ struct Diagnosis {
   std::vector<std::vector<std::string>> indistinguishable;
   bool unexplained = false;
   double unexplained_p = 1;
-  LeftOver left_over;  ///< by the first cause
-  Closure closure;
-  bool twin_is_nominal = false;  ///< nothing found that would foretell other runs
+  LeftOver left_over;  ///< by what explains best
+  Fit explanation;     ///< what explains best, whether or not it leads; none where there is no gap
+  Fit twin;            ///< of its effects, those that foretell held-out runs; none where the twin is the scenario as it was
+  Closure closure;     ///< of the twin
+  Remainder remainder;
+  bool twin_is_nominal() const { return twin.families.empty(); }
   NoiseModel noise;              ///< as estimated from the runs
   double noise_floor_mm = 0;
   double before_mm = 0;             ///< root mean square position error of the scenario as it was

@@ -1,10 +1,9 @@
 #include "gap/diagnosis_json.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 
 #include "core/random.h"
 
@@ -39,8 +38,7 @@ std::vector<ParameterEstimate> parameter_estimates(const Fit& fit, double overdi
   std::vector<ParameterEstimate> estimates;
   if (fit.families.empty()) return estimates;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(fit.covariance * overdispersion);
-  const Eigen::MatrixXd root =
-      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  const Eigen::MatrixXd root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
   RandomStream random(1, "parameter intervals");
   std::vector<Eigen::VectorXd> draws;
   for (int i = 0; i < kDraws; ++i) {
@@ -68,7 +66,10 @@ std::vector<ParameterEstimate> parameter_estimates(const Fit& fit, double overdi
       const double replay = 1.96 * replay_sd(f.effect, info.parameters[k], best_k, neutral.numbers[k]);
       const Bounds possible = is_angle(info.parameters[k]) ? Bounds{} : info.parameters[k].bounds;
       estimates.push_back(
-          {f.effect, info.parameters[k].name, info.parameters[k].unit, best_k,
+          {f.effect,
+           info.parameters[k].name,
+           info.parameters[k].unit,
+           best_k,
            {std::max(std::min(best_k, possible.min), best_k - std::hypot(best_k - values[kDraws / 40], replay)),
             std::min(std::max(best_k, possible.max),
                      best_k + std::hypot(values[kDraws - 1 - kDraws / 40] - best_k, replay))}});
@@ -99,6 +100,35 @@ std::vector<ParameterEstimate> parameter_estimates(const Cause& cause, double ov
   return estimates;
 }
 
+namespace {
+
+Json worth_json(const Worth& w) { return {{"position_mm", number(w.mm)}, {"heading_deg", number(w.deg)}}; }
+
+// Of the cause that the twin holds, where runs were held out: together, and each of several effects beside the others.
+Json worth_of(const Cause& cause, const Diagnosis& d) {
+  const Fit& twin = d.twin;
+  if (!d.closure.known || d.twin_is_nominal() || cause.name != d.explanation.name()) return nullptr;
+  Json json = worth_json(d.closure.together());
+  if (d.closure.worth.size() < 2) return json;
+  for (std::size_t i = 0; i < d.closure.worth.size(); ++i)
+    json["effects"][twin.families[i].effect] = worth_json(d.closure.worth[i]);
+  return json;
+}
+
+// Effects of the twin that show in commands or counts, and move no pose of held-out runs beyond the noise.
+Json remarks_of(const Diagnosis& d) {
+  Json remarks = Json::array();
+  for (std::size_t i = 0; i < d.twin.families.size(); ++i) {
+    const std::string& effect = d.twin.families[i].effect;
+    if (!shows_in_counts(find_effect(effect))) continue;
+    const bool moves = d.closure.known && i < d.closure.worth.size() && d.closure.worth[i].mm > d.noise_floor_mm;
+    if (!moves) remarks.push_back(effect);
+  }
+  return remarks;
+}
+
+}  // namespace
+
 FoundParameter found(const ParameterEstimate& e) { return {e.parameter, e.value, e.ci95[0], e.ci95[1]}; }
 
 std::string shown_text(const ParameterEstimate& e) {
@@ -120,8 +150,8 @@ Json diagnosis_json(const Diagnosis& d) {
                    {"clock_s", d.noise.clock_s}};
   Json segments = Json::array();
   for (const SegmentScore& s : d.segments) {
-    segments.push_back({{"run", s.run}, {"leg", s.leg}, {"part", s.part}, {"score", number(s.score)},
-                        {"at_m", {s.at_x_m, s.at_y_m}}});
+    segments.push_back(
+        {{"run", s.run}, {"leg", s.leg}, {"part", s.part}, {"score", number(s.score)}, {"at_m", {s.at_x_m, s.at_y_m}}});
   }
   json["where"] = {{"stage", d.stage}, {"pattern", d.pattern}, {"segments", segments}};
   if (d.has_place) json["where"]["place_m"] = {d.place_m[0], d.place_m[1]};
@@ -145,6 +175,7 @@ Json diagnosis_json(const Diagnosis& d) {
                       {"probability", c.probability},
                       {"held_out_log_density", number(c.fit.held_out)},
                       {"squared_error_drop", number(c.squared_error_drop)}});
+    if (const Json worth = worth_of(c, d); !worth.is_null()) causes.back()["worth"] = worth;
     if (causes.size() == 12) break;
   }
   json["causes"] = causes;
@@ -153,11 +184,23 @@ Json diagnosis_json(const Diagnosis& d) {
   json["unexplained"] = {{"detected", d.unexplained},
                          {"p_value", d.unexplained_p},
                          {"description", d.unexplained ? d.left_over.description : ""}};
+  json["remarks"] = remarks_of(d);
+  if (d.detected) {
+    json["remainder"] = {{"position_mm", number(d.remainder.mm)},
+                         {"share", number(d.remainder.share)},
+                         {"where", d.left_over.where},
+                         {"pattern", d.remainder.pattern},
+                         {"in_catalogue", d.remainder.in_catalogue}};
+  }
   if (d.closure.known) {
     const Closure& c = d.closure;
-    json["closure"] = {{"held_out_fraction", number(c.fraction)}, {"ci95", {number(c.ci95[0]), number(c.ci95[1])}},
-                       {"before_mm", c.before_mm}, {"after_mm", c.after_mm}, {"noise_floor_mm", c.floor_mm},
-                       {"before_deg", c.before_deg}, {"after_deg", c.after_deg},
+    json["closure"] = {{"held_out_fraction", number(c.fraction)},
+                       {"ci95", {number(c.ci95[0]), number(c.ci95[1])}},
+                       {"before_mm", c.before_mm},
+                       {"after_mm", c.after_mm},
+                       {"noise_floor_mm", c.floor_mm},
+                       {"before_deg", c.before_deg},
+                       {"after_deg", c.after_deg},
                        {"explainable_fraction", number(d.explainable_fraction)}};
   } else {
     json["closure"] = {{"held_out_fraction", nullptr},

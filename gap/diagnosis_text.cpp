@@ -55,6 +55,15 @@ std::string closure_text(const Closure& c) {
       100 * c.fraction, 100 * c.ci95[0], 100 * c.ci95[1], c.before_mm, c.after_mm, c.before_deg, c.after_deg));
 }
 
+std::string remainder_text(const Diagnosis& d) {
+  const Remainder& rest = d.remainder;
+  std::string text = fmt::format("Remainder: {} ({:.0f} % of the squared error beyond noise)", millimetres(rest.mm),
+                                 100 * rest.share);
+  if (rest.pattern.empty()) return text;
+  return text + fmt::format("; an effect of the catalogue with the pattern '{}' could take {} of it", rest.pattern,
+                            rest.in_catalogue ? "most" : "a small part");
+}
+
 std::string found_text(const Diagnosis& d, const std::vector<NextExperiment>& next) {
   std::string text = fmt::format("Gap: the scenario is off by {:.1f} mm; run-to-run noise makes {:.1f} mm.\n",
                                  d.before_mm, d.noise_floor_mm);
@@ -64,6 +73,7 @@ std::string found_text(const Diagnosis& d, const std::vector<NextExperiment>& ne
   for (const NextExperiment& n : next)
     text += wrapped(fmt::format("Next: {} separates {}", n.run, fmt::join(n.separates, ", ")));
   if (d.unexplained && !d.left_over.description.empty()) text += wrapped("Left over: " + d.left_over.description);
+  text += wrapped(remainder_text(d));
   return d.closure.known ? text + closure_text(d.closure) : text;
 }
 

@@ -77,7 +77,7 @@ double Model::log_evidence(const Fit& fit, const std::vector<std::size_t>& runs)
   return log_density;
 }
 
-std::vector<Effect> Model::fitted_on(const Fit& fit, const std::vector<std::size_t>& runs) const {
+Eigen::VectorXd Model::numbers_on(const Fit& fit, const std::vector<std::size_t>& runs) const {
   const Eigen::VectorXd shift = shifted(nuisances(), fit.p);
   const Eigen::VectorXd s = prior_sd(fit.families);
   const Evidence e = evidence(fit.grams, runs, first_columns(shift.size()), with_more(nuisance_sds(), s), shift);
@@ -94,7 +94,7 @@ std::vector<Effect> Model::fitted_on(const Fit& fit, const std::vector<std::size
     other.p[i] = std::clamp(other.p[i], p.min, p.max);
     ++i;
   }
-  if (fit.linear || !all_told) return other.effects();
+  if (fit.linear || !all_told) return other.p;
   // Where the simulator bends the derivatives may point off the hill: the better of both starts.
   const auto density = [&](const Eigen::VectorXd& p) {
     try {
@@ -104,7 +104,22 @@ std::vector<Effect> Model::fitted_on(const Fit& fit, const std::vector<std::size
     }
   };
   const bool astray = density(fit.p) > density(other.p);
-  return this->fit(fit.families, astray ? fit.p : other.p, kRoundsAgain, runs).effects();
+  return this->fit(fit.families, astray ? fit.p : other.p, kRoundsAgain, runs).p;
+}
+
+Fit Model::without(const Fit& whole, std::size_t out) const {
+  std::vector<Family> families;
+  std::vector<double> start;
+  Eigen::Index at = 0;
+  for (std::size_t i = 0; i < whole.families.size(); ++i) {
+    const Eigen::Index n = Eigen::Index(whole.families[i].parameters.size());
+    if (i != out) {
+      families.push_back(whole.families[i]);
+      start.insert(start.end(), whole.p.data() + at, whole.p.data() + at + n);
+    }
+    at += n;
+  }
+  return fit(families, Eigen::Map<Eigen::VectorXd>(start.data(), Eigen::Index(start.size())));
 }
 
 void Model::score(Fit& fit) const {
@@ -165,8 +180,8 @@ Linearisation Model::linearised(const Fit& fit) const {
   return {fit.p, residuals(fit.predicted), columns(fit.predicted, predict(sets), steps)};
 }
 
-// A step that ended elsewhere than foretold says how the derivatives along it really were (Broyden 1965). `scale`: of the
-// numbers.
+// A step that ended elsewhere than foretold says how the derivatives along it really were (Broyden 1965). `scale`: of
+// the numbers.
 void Linearisation::learn(const Eigen::VectorXd& to, const std::vector<Eigen::VectorXd>& there,
                           const Eigen::VectorXd& scale) {
   const Eigen::VectorXd step = to - p;

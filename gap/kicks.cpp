@@ -1,23 +1,23 @@
 #include "gap/kicks.h"
 
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
 
-#include <Eigen/Cholesky>
-#include <tbb/parallel_for.h>
-
 namespace umbsim::gap {
 namespace {
 
-constexpr std::size_t kStride = 2;                   // truth samples between two candidates
-const Eigen::Vector3d kKickSd(0.02, 0.02, 0.05);     // prior size: metres, metres, radians
+constexpr std::size_t kStride = 2;                // truth samples between two candidates
+const Eigen::Vector3d kKickSd(0.02, 0.02, 0.05);  // prior size: metres, metres, radians
 constexpr double kLostSd_m = 0.003;
-constexpr double kWheelbase_m = 0.36;                // of a robot to which these lengths belong; others in proportion:
+constexpr double kWheelbase_m = 0.36;  // of a robot to which these lengths belong; others in proportion:
 constexpr double kSpot_m = 0.03;
-constexpr double kReach_m = 0.05;                    // half length of what lies across the path
-constexpr double kApart_m = 0.3;                     // between places that are told apart
+constexpr double kReach_m = 0.05;  // half length of what lies across the path
+constexpr double kApart_m = 0.3;   // between places that are told apart
 
 // Wheel positions at each candidate of a run.
 Pose2 wheel_place(const Pose2& X_WB, int wheel, double wheelbase_m) {

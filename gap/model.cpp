@@ -27,12 +27,16 @@ bool acts_on_counts(const std::vector<Effect>& effects) {
 
 }  // namespace
 
-std::vector<Effect> Fit::effects() const {
+std::vector<Effect> Fit::effects() const { return effects_at(p); }
+
+std::vector<Effect> Fit::effects_at(const Eigen::VectorXd& numbers, std::size_t without) const {
   std::vector<Effect> all;
   Eigen::Index at = 0;
-  for (const Family& f : families) {
-    const Eigen::Index n = Eigen::Index(f.parameters.size());
-    for (Effect& e : effects_of(f, p.segment(at, n))) all.push_back(std::move(e));
+  for (std::size_t i = 0; i < families.size(); ++i) {
+    const Eigen::Index n = Eigen::Index(families[i].parameters.size());
+    if (i != without) {
+      for (Effect& e : effects_of(families[i], numbers.segment(at, n))) all.push_back(std::move(e));
+    }
     at += n;
   }
   return all;

@@ -52,6 +52,8 @@ struct Fit {
   double seen = 0;  ///< root mean square of the same in the whitened tracks: what makes no way, but shakes, shows here
 
   std::vector<Effect> effects() const;
+  /// The effects with other numbers; `without`: but for those of one family.
+  std::vector<Effect> effects_at(const Eigen::VectorXd& numbers, std::size_t without = std::size_t(-1)) const;
   std::string name() const;    ///< effects joined by "+", in alphabetical order
   bool only_rolls() const;     ///< all of its effects do
   bool is_local() const;       ///< one of them is at a place or a moment
@@ -150,9 +152,12 @@ class Model {
   Fit fit(const std::vector<Family>& families, const Eigen::VectorXd& start = {}, int rounds = 7,
           const std::vector<std::size_t>& runs = {}, const std::optional<Linearisation>& known = std::nullopt) const;
 
-  /// The effects of a fit with their numbers taken from a subset of the runs: by the fit's derivatives, and where the
-  /// simulator bends by fitting again from there.
-  std::vector<Effect> fitted_on(const Fit& fit, const std::vector<std::size_t>& runs) const;
+  /// The fit of all but one of a fit's families, from their numbers there.
+  Fit without(const Fit& fit, std::size_t family) const;
+
+  /// The numbers of a fit's effects taken from a subset of the runs: by the fit's derivatives, and where the simulator
+  /// bends by fitting again from there.
+  Eigen::VectorXd numbers_on(const Fit& fit, const std::vector<std::size_t>& runs) const;
 
   /// Log evidence over the runs of a subset, of a fit's linearised model.
   double log_evidence(const Fit& fit, const std::vector<std::size_t>& runs) const;

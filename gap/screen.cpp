@@ -118,8 +118,8 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
   const double R = model_.recording().robot.wheel_radius_m;
   // Two local events at once are not looked for: the second would mend the first one's shape.
   if (fit.is_local()) return;
-  const auto offer = [&](Family family, const Starts& starts, const std::vector<double>& reach, int climbs,
-                         double gain, const std::vector<std::size_t>& shown_by = {}) {
+  const auto offer = [&](Family family, const Starts& starts, const std::vector<double>& reach, int climbs, double gain,
+                         const std::vector<std::size_t>& shown_by = {}) {
     if (excluded_.count(family.effect) > 0) return;
     Candidate c;
     c.family = std::move(family);
@@ -137,8 +137,7 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
     const PlaceKick& k = kicks.places[i];
     if (k.gain < kLeastKick) break;
     if (k.lost_m > 0) {
-      offer(bump_family(k.x_m, k.y_m, k.heading_rad), cable_starts(k.lost_m, R), {0.002, 0.02}, 2, k.gain,
-            k.shown_by);
+      offer(bump_family(k.x_m, k.y_m, k.heading_rad), cable_starts(k.lost_m, R), {0.002, 0.02}, 2, k.gain, k.shown_by);
     }
     const bool closely = i == 0 && fit.families.empty();
     offer(lift_family(k.x_m, k.y_m), lift_starts(closely), {0.005, 0.01, 0.01}, closely ? 5 : 3, k.gain - 1,

@@ -21,21 +21,21 @@ constexpr int kRounds = 7;
 constexpr int kFewerRounds = 4;  // what is there already has been fitted
 constexpr std::size_t kSwapsFitted = 2;
 constexpr int kSwaps = 2;
-constexpr double kTwins = 6;  // squared standard deviations between two fits' tracks, all readings
-constexpr double kRivals = 0.8;    // share of an effect's gain that the screen must see in another in its place
-constexpr double kHeld = 0.5;      // of what the screen saw of an effect beside a place, that its fit must hold
-constexpr double kFarBehind = 20;  // log evidence
-constexpr double kHint = 0.02;     // of what explains all, below which nothing else is looked at,
-constexpr double kLocalHint = 0.25;    // and the same of places and moments, which take long
-constexpr double kWorthAClimb = 0.1;   // of what the best single effect explains, the same of the best start
-constexpr double kPartOfNeeded = 0.25; // of what a further effect must bring, the same of its best start
-constexpr double kDoubtful = 0.3;  // of what a further effect must bring
+constexpr double kTwins = 6;            // squared standard deviations between two fits' tracks, all readings
+constexpr double kRivals = 0.8;         // share of an effect's gain that the screen must see in another in its place
+constexpr double kHeld = 0.5;           // of what the screen saw of an effect beside a place, that its fit must hold
+constexpr double kFarBehind = 20;       // log evidence
+constexpr double kHint = 0.02;          // of what explains all, below which nothing else is looked at,
+constexpr double kLocalHint = 0.25;     // and the same of places and moments, which take long
+constexpr double kWorthAClimb = 0.1;    // of what the best single effect explains, the same of the best start
+constexpr double kPartOfNeeded = 0.25;  // of what a further effect must bring, the same of its best start
+constexpr double kDoubtful = 0.3;       // of what a further effect must bring
 constexpr double kScreening = 0.2;      // of the time of single effects
 constexpr double kAdding = 0.75;        // of a stage's time that further effects take; the rest are exchanges
 constexpr double kSuddenBeside = 0.05;  // of what is explained, that another engine leaves of kicks
 
-// Nothing is left but noise, as well as it is known, and nothing sudden, which a few readings show. `none`: the fit of no
-// effect.
+// Nothing is left but noise, as well as it is known, and nothing sudden, which a few readings show. `none`: the fit of
+// no effect.
 bool explains_all(const Model& model, const Fit& fit, const Fit& none, const Thresholds& t) {
   if (fit.misfit >= (1 + t.noise_error) * model.rows()) return false;
   const double explained = fit.log_evidence - none.log_evidence;
@@ -84,8 +84,8 @@ class Search {
       if (!from) return std::nullopt;
       Eigen::VectorXd start(base.p.size() + from->size());
       start << base.p, *from;
-      Fit fit = model_.fit(families, start, base.families.empty() ? kRounds : kFewerRounds, {},
-                           screen_.near(base, c.family));
+      Fit fit =
+          model_.fit(families, start, base.families.empty() ? kRounds : kFewerRounds, {}, screen_.near(base, c.family));
       // A place may have been fitted so that it makes up for what is only now beside it. What takes part in the contact
       // would mend how another engine's robot is shaken there.
       const bool less_than_seen = fit.log_evidence < base.log_evidence + kHeld * c.gain;
@@ -110,7 +110,8 @@ class Search {
     if (base.families.empty() || pays(model_, base, fit, needed, kDoubtful)) doubtful_.push_back(std::move(fit));
   }
 
-  // What the counts speak against may not explain the tracks, nor what would have made the runs scatter more than they do.
+  // What the counts speak against may not explain the tracks, nor what would have made the runs scatter more than they
+  // do.
   bool contradicted(const Fit& base, const Fit& fit) const {
     return fit.log_chance < -kContradicted / 2 ||
            model_.counts_misfit(fit.predicted) > model_.counts_misfit(base.predicted) + kContradicted;
@@ -164,8 +165,8 @@ class Search {
       if (other && from.size() < kBases) from.push_back(std::move(f));
     }
     if (from.size() < 2) return from;
-    const bool second_is_idle = explains_all(model_, from[0], none_, thresholds_) &&
-                                from[1].log_evidence < from[0].log_evidence - kFarBehind;
+    const bool second_is_idle =
+        explains_all(model_, from[0], none_, thresholds_) && from[1].log_evidence < from[0].log_evidence - kFarBehind;
     // Two explanations of what happened at one place or moment are not two.
     if (second_is_idle || (from[0].is_local() && from[1].is_local())) from.resize(1);
     return from;
@@ -219,7 +220,7 @@ class Search {
   // in its place is tried.
   void swap_one(const Fit& whole, std::vector<Fit>& paying) {
     for (std::size_t out = 0; out + 1 < whole.families.size(); ++out) {
-      const Fit base = without(whole, out);
+      const Fit base = model_.without(whole, out);
       const double worth = whole.log_evidence - base.log_evidence;
       fits_.push_back(base);
       std::size_t fitted = 0;
@@ -235,21 +236,6 @@ class Search {
         paying.push_back(std::move(*fit));
       }
     }
-  }
-
-  Fit without(const Fit& whole, std::size_t out) const {
-    std::vector<Family> families;
-    std::vector<double> start;
-    Eigen::Index at = 0;
-    for (std::size_t i = 0; i < whole.families.size(); ++i) {
-      const Eigen::Index n = Eigen::Index(whole.families[i].parameters.size());
-      if (i != out) {
-        families.push_back(whole.families[i]);
-        start.insert(start.end(), whole.p.data() + at, whole.p.data() + at + n);
-      }
-      at += n;
-    }
-    return model_.fit(families, Eigen::Map<Eigen::VectorXd>(start.data(), Eigen::Index(start.size())));
   }
 
   const Model& model_;

@@ -58,8 +58,7 @@ Json parts(const Diagnosis& d, const std::string& run, std::size_t stride) {
 }  // namespace
 
 Json tracks_json(const Model& model, const Diagnosis& d) {
-  const Cause& cause = d.causes.front();
-  const bool twin = !cause.fit.families.empty();
+  const bool twin = !d.twin_is_nominal();
   Json runs = Json::array();
   for (std::size_t r = 0; r < model.recording().runs.size(); ++r) {
     const RecordedRun& run = model.recording().runs[r];
@@ -71,7 +70,7 @@ Json tracks_json(const Model& model, const Diagnosis& d) {
               {"before", thinned(before, stride)}, {"parts", parts(d, run.id, stride)},
               {"end", {{"before", end_error(run, before)}}}};
     if (twin) {
-      const std::vector<Pose2> after = begun_right(model, r, cause.fit.predicted.tracks[r]);
+      const std::vector<Pose2> after = begun_right(model, r, d.twin.predicted.tracks[r]);
       item["after"] = thinned(after, stride);
       item["end"]["after"] = end_error(run, after);
     }

@@ -155,7 +155,7 @@ std::string worth(const Diagnosis& d) {
   if (c.before_mm == 0) return worth_on_these_runs(d, it);
   if (!c.known) return "No track strays by more than noise makes it: there is nothing to take away.";
   if (c.after_mm == c.before_mm) {
-    return d.twin_is_nominal ? fmt::format("But {} nothing away on runs that were held out: the twin goes without.", it)
+    return d.twin_is_nominal() ? fmt::format("But {} nothing away on runs that were held out: the twin goes without.", it)
                              : "What it does to each run cannot be reproduced: the twin goes without.";
   }
   std::string text =
@@ -198,6 +198,13 @@ std::string unknown(const Diagnosis& d) {
     return text + fmt::format(" Nothing in it comes near. The gap sits {}.",
                               d.left_over.where.empty() ? "in no part of the runs more than in others"
                                                         : "mostly " + d.left_over.where);
+  }
+  if (!d.twin_is_nominal() && d.closure.known) {
+    const Closure& c = d.closure;
+    return text + fmt::format(" What comes nearest is {}: that takes away {} on runs that were held out, and the twin "
+                              "holds it; {} remain{}.",
+                              together(effects_in(d.twin.name())), taken_away(c.before_mm, c.after_mm),
+                              left(c.before_mm, c.after_mm), mostly(d));
   }
   const double after_mm = d.before_mm * std::sqrt(1 - nearest->squared_error_drop);
   return text + fmt::format(" What comes nearest is {}, with {} on these very runs; {} would remain{}.",

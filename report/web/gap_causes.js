@@ -23,19 +23,35 @@ const percent = (p) => (p >= 0.9995 ? "100" : p >= 0.0995 ? fixed(100 * p, 0) : 
 const barHtml = (share, cssClass) =>
     `<span class="bar" aria-hidden="true"><span class="${cssClass}" style="width:${(100 * Math.max(0, Math.min(1, share))).toFixed(1)}%"></span></span>`;
 
+// What goes away with a cause on held-out runs, and with each of its effects beside the others.
+function gapWorth(cause) {
+  if (!cause.worth) return "";
+  const text = (w) => `${gapMm(w.position_mm)}, ${fixed(w.heading_deg, 3)}\u00a0°`;
+  const each = Object.entries(cause.worth.effects || {}).map(([name, w]) => `${escapeHtml(gapWords(name))}: ${text(w)}`);
+  return [text(cause.worth), ...each].join("<br>");
+}
+
+function gapRemainder(d) {
+  const r = d.remainder;
+  if (!r) return "";
+  const where = r.where ? `, mostly ${escapeHtml(r.where)}` : "";
+  const pattern = r.pattern ? ` An effect of the catalogue with the pattern “${escapeHtml(gapWords(r.pattern))}” could take ${r.in_catalogue ? "most" : "a small part"} of it.` : "";
+  return `<p>Remainder: <b>${gapMm(r.position_mm)}</b>, ${fixed(100 * r.share, 0)}\u00a0% of the squared error beyond noise${where}.${pattern}</p>`;
+}
+
 function gapWhichHtml(d) {
   const shown = d.causes.filter((c, i) => i === 0 || c.probability >= 0.0005 || d.set.includes(gapNames(c).join("+"))).slice(0, 8);
   const rows = shown.map((c) => {
     const tied = d.set.includes(gapNames(c).sort().join("+"));
     return `<tr><th scope="row" class="text">${escapeHtml(gapTitle(c))}</th><td class="bar-cell">${barHtml(c.probability, tied ? "tied" : "rest")}</td>
-      <td>${percent(c.probability)}</td><td class="text">${gapParameters(c)}</td></tr>`;
+      <td>${percent(c.probability)}</td><td class="text">${gapParameters(c)}</td><td class="text">${gapWorth(c)}</td></tr>`;
   });
   const set = d.set.map((n) => `<b>${escapeHtml(gapWords(n))}</b>`).join(", ");
   const alike = d.set.length > 1 ? `These data do not tell apart: ${set}.` : `Nothing else in the catalogue explains these data as well as ${set}.`;
   const rest = d.unexplained.detected && d.unexplained.description ? `<p class="notice">Left over: ${escapeHtml(d.unexplained.description)}.</p>` : "";
   return `<div class="table-wrap"><table><caption>Explanations with their probability, numbers with 95 % intervals</caption>
-    <thead><tr><th class="text">explanation</th><th></th><th>probability</th><th class="text">numbers</th></tr></thead>
-    <tbody>${rows.join("")}</tbody></table></div><p>${alike}</p>${rest}`;
+    <thead><tr><th class="text">explanation</th><th></th><th>probability</th><th class="text">numbers</th><th class="text">takes away</th></tr></thead>
+    <tbody>${rows.join("")}</tbody></table></div><p>${alike}</p>${gapRemainder(d)}${rest}`;
 }
 
 function gapWhereText(d) {
@@ -97,6 +113,6 @@ function gapNextHtml(d) {
   const ties = (d.indistinguishable || []).map((t) => `<li>Alike in these runs: ${t.map((s) => escapeHtml(gapWords(s))).join(", ")}</li>`);
   const limits = (d.limits || []).map((l) => `<li>${escapeHtml(l)}</li>`);
   const none = d.set.length > 1 ? "" : "<li>No further run is needed to tell the explanations apart.</li>";
-  const twin = d.gap.detected && isNamed(d.causes[0]) ? "<li><code>umbsim run twin.yaml</code> drives the scenario with the effect added.</li>" : "";
+  const twin = d.causes.some((c) => c.worth) || (d.gap.detected && isNamed(d.causes[0])) ? "<li><code>umbsim run twin.yaml</code> drives the scenario with the effect added.</li>" : "";
   return `<ul>${next.length ? next.join("") : none}${ties.join("")}${twin}</ul>` + (limits.length ? `<p>Limits of this answer:</p><ul>${limits.join("")}</ul>` : "");
 }

@@ -45,8 +45,9 @@ Diagnosis found(std::vector<Cause> causes) {
   d.detected = true;
   d.before_mm = 45.2;
   d.noise_floor_mm = 6.1;
-  d.closure = {true, 0.95, {0.9, 0.98}, 45.2, 11.1, 6.1, 8.0, 3, 0.4};
+  d.closure = {true, 0.95, {0.9, 0.98}, 45.2, 11.1, 6.1, 8.0, 3, 0.4, {{34.1, 2.6}}};
   d.causes = std::move(causes);
+  d.twin = d.causes.front().fit;
   d.set = {d.causes.front().name};
   return d;
 }
@@ -172,7 +173,7 @@ TEST(Verdict, MissingClosureIsSaid) {
   d.closure.before_mm = 5;  // held out, but within noise
   expect_in(said(d), "No track strays by more than noise makes it");
   d = found({wheelbase(0.005)});
-  d.twin_is_nominal = true;
+  d.twin = {};
   d.closure.after_mm = d.closure.before_mm;
   expect_in(said(d), "takes nothing away on runs that were held out: the twin goes without.");
 }
