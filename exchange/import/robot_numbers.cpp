@@ -30,6 +30,7 @@ RecordedRobot robot_numbers(ImportOptions& o, std::vector<std::string>& found) {
   if (o.wheel_radius_m) robot.wheel_radius_m = *o.wheel_radius_m;
   if (o.wheelbase_m) robot.wheelbase_m = *o.wheelbase_m;
   if (o.ticks_per_revolution) robot.ticks_per_revolution = *o.ticks_per_revolution;
+  if (robot.wheelbase_m > 0) o.wheelbase_m = robot.wheelbase_m;
   return robot;
 }
 

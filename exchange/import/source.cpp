@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "exchange/bag/bag_source.h"
 #include "exchange/text/columns_source.h"
 #include "exchange/text/echo_source.h"
 #include "exchange/text/trajectory_source.h"
@@ -31,6 +32,8 @@ std::unique_ptr<Source> open_table(const std::string& file, const ImportOptions&
 std::unique_ptr<Source> open_source(const std::string& file, const ImportOptions& options) {
   std::error_code ignored;
   if (!fs::exists(file, ignored)) throw InputError(SourceMark{file}, "cannot be read: no such file");
+  const std::vector<std::string> files = bag_files(file);
+  if (!files.empty()) return std::make_unique<BagSource>(file, files, options);
   return open_table(file, options);
 }
 

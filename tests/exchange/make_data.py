@@ -176,8 +176,100 @@ def ros1_file():
             bag.write(topic, message, stamp)
 
 
+def spoiled_files():
+    """Fifteen seconds each, with one thing wrong."""
+    folder = path("spoiled")
+    os.makedirs(folder, exist_ok=True)
+    rows, poses = ROWS[:300], POSES[:300]
+
+    def bag(name, wheels=None, tracked=None, topics=None, definitions=None, encoding="cdr", names=JOINTS, scale=1.0,
+            length=1.0, turn=1.0, mangle=None, topic="/joint_states", truth="/mocap/pose", more=()):
+        kinds = {topic: "sensor_msgs/msg/JointState", truth: "geometry_msgs/msg/PoseStamped"}
+        kinds.update(topics or {})
+        if wheels is None:
+            wheels = [(t, topic, cdr.joint_state(t, names, [scale * l * RAD, scale * r * RAD], [wl, wr]))
+                      for t, l, r, wl, wr in rows]
+        if tracked is None:
+            tracked = [(t, truth, cdr.pose_stamped(t, "mocap", [length * x, length * y, 0.0], quaternion(turn * a)))
+                       for t, x, y, a in poses]
+        messages = merged(wheels, tracked, *more)
+        used = {m[1] for m in messages}
+        described = {k: v for k, v in with_definitions(kinds).items() if k in used}
+        described.update(definitions or {})
+        mcap.write(os.path.join(folder, name + ".mcap"), described, mangle(messages) if mangle else messages, "zstd",
+                   encoding=encoding)
+
+    def joint(i, position, **changes):
+        t, l, r, wl, wr = rows[i]
+        return (t, "/joint_states", cdr.joint_state(changes.get("at", t), changes.get("names", JOINTS), position, [wl, wr]))
+
+    def with_row(i, message):
+        all_rows = [joint(k, [l * RAD, r * RAD]) for k, (_, l, r, _, _) in enumerate(rows)]
+        all_rows[i] = message
+        return all_rows
+
+    def with_pose(i, position, q):
+        t = poses[i][0]
+        good = [(t, "/mocap/pose", cdr.pose_stamped(t, "mocap", [x, y, 0.0], quaternion(a))) for t, x, y, a in poses]
+        good[i] = (t, "/mocap/pose", cdr.pose_stamped(t, "mocap", position, q))
+        return good
+
+    nan = float("nan")
+    bag("good")
+    bag("nan_position", with_row(120, joint(120, [nan, 1.0])))
+    bag("nan_pose", tracked=with_pose(100, [nan, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]))
+    bag("zero_quaternion", tracked=with_pose(100, [0.5, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]))
+    bag("stamps_back", with_row(150, joint(150, [1.0, 1.0], at=rows[140][0])))
+    bag("one_position", with_row(150, joint(150, [1.0])))
+    bag("outlier", tracked=with_pose(100, [3.0, 4.0, 0.0], quaternion(poses[100][3])))
+    bag("swapped", names=JOINTS[::-1])
+    bag("arm_only", names=["shoulder", "elbow"])
+    bag("no_wheels", wheels=[])
+    bag("no_truth", tracked=[])
+    bag("positions_in_degrees", scale=180 / math.pi)
+    bag("positions_by_ten", scale=10.0)
+    bag("truth_in_millimetres", length=1000.0)
+    bag("truth_by_ten", length=0.1)
+    bag("heading_reversed", turn=-1.0)
+    bag("json", encoding="json")
+    bag("not_that_type", wheels=[(t, "/joint_states", b"\0\1\0\0" + b"\xff" * 40) for t, *_ in rows])
+    bag("no_position_field", definitions={"/joint_states": (
+        "sensor_msgs/msg/JointState", cdr.DEFINITIONS["sensor_msgs/msg/JointState"].replace("float64[] position\n", ""))})
+    bag("undefined_type", definitions={"/joint_states": (
+        "sensor_msgs/msg/JointState", "std_msgs/Header header\nmy_msgs/Wheel[] wheels\n")})
+    second = [(t, "/b/joint_states", cdr.joint_state(t, JOINTS, [r * RAD, l * RAD], [wr, wl])) for t, l, r, wl, wr in rows]
+    bag("two_robots", topics={"/b/joint_states": "sensor_msgs/msg/JointState"}, more=[second])
+    other = [(t, "/b/pose", cdr.pose_stamped(t, "mocap", [y, x, 0.0], quaternion(-a))) for t, x, y, a in poses]
+    bag("two_truths", topics={"/b/pose": "geometry_msgs/msg/PoseStamped"}, more=[other])
+    bag("four_wheels", wheels=[(t, "/joint_states", cdr.joint_state(
+        t, ["front_left_wheel", "front_right_wheel", "rear_left_wheel", "rear_right_wheel"],
+        [l * RAD, r * RAD, l * RAD, r * RAD], [wl, wr, wl, wr])) for t, l, r, wl, wr in rows])
+    bag("interleaved", wheels=merged([(t, "/joint_states", cdr.joint_state(t, JOINTS, [l * RAD, r * RAD], [wl, wr]))
+                                      for t, l, r, wl, wr in rows],
+                                     [(t + 1000, "/joint_states", cdr.joint_state(t, JOINTS, [r * RAD, l * RAD], [wr, wl]))
+                                      for t, l, r, wl, wr in rows]))
+    late = 3_600_000_000_000
+    bag("other_clock", tracked=[(t + late, "/mocap/pose", cdr.pose_stamped(t + late, "mocap", [x, y, 0.0], quaternion(a)))
+                                for t, x, y, a in poses])
+    bag("looks_aside", turn=1.0, tracked=[(t, "/mocap/pose", cdr.pose_stamped(
+        t, "mocap", [x, y, 0.0], quaternion(a + math.pi / 2))) for t, x, y, a in poses])
+    bag("y_up", tracked=[(t, "/mocap/pose", cdr.pose_stamped(
+        t, "mocap", [y, 0.0, x], [0.0, math.sin(a / 2), 0.0, math.cos(a / 2)])) for t, x, y, a in poses])
+    bag("lying", tracked=[(t, "/mocap/pose", cdr.pose_stamped(t, "mocap", [x, y, 0.0], [math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5)]))
+                          for t, x, y, a in poses])
+    tf = [(t, "/tf", cdr.tf_message([(t, "map", "odom", [0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]),
+                                     (t, name + "/odom", name + "/base_link", [x, y, 0.0], quaternion(a))]))
+          for t, x, y, a in poses for name in ("a", "b")]
+    bag("tf_of_two", tracked=tf, topics={"/tf": "tf2_msgs/msg/TFMessage"})
+    bag("two_parents", topics={"/tf": "tf2_msgs/msg/TFMessage"}, tracked=[
+        (t, "/tf", cdr.tf_message([(t, "map" if i % 2 else "world", "base_link", [x, y, 0.0], quaternion(a))]))
+        for i, (t, x, y, a) in enumerate(poses)])
+
+
 os.makedirs(FOLDER, exist_ok=True)
 csv_files()
 mcap_files()
 db3_files()
 ros1_file()
+if len(sys.argv) < 3:
+    spoiled_files()
