@@ -73,6 +73,9 @@ void add_tracker(CLI::App& c, exchange::ImportOptions& o) {
        "Where the tracked frame sits on the robot: FORWARD,LEFT,DEGREES from the axle's middle, metres")
       ->group(kGroup);
   c.add_option("--truth-offset", o.truth_offset_s, "Seconds to add to the truth's times")->group(kGroup);
+  c.add_flag("--keep-frame", o.keep_frame,
+             "Leave the poses in the tracker's frame; default: the first run starts at its origin")
+      ->group(kGroup);
   c.add_option("--position-sd", o.position_sd_m, "Noise of its positions, metres")
       ->check(CLI::Range(0.0, 1e3))
       ->group(kGroup);

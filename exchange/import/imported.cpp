@@ -25,9 +25,9 @@ double rate_of(const std::vector<EncoderSample>& samples) {
 }
 
 // One floor frame for all runs: the first one starts at its origin along +x.
-void set_floor_frame(Recording& recording) {
+void set_floor_frame(Recording& recording, bool keep) {
   constexpr double kTurned_rad = 0.2;  // beyond, a run was started the other way on purpose
-  const Pose2 X_FW = inverse(recording.runs.front().truth.front().X_WB);
+  const Pose2 X_FW = keep ? Pose2{} : inverse(recording.runs.front().truth.front().X_WB);
   for (RecordedRun& run : recording.runs) {
     for (TruthSample& t : run.truth) t.X_WB = X_FW * t.X_WB;
     // Whole turns that the robot made before say nothing.
@@ -76,7 +76,7 @@ Imported import_recording(ImportOptions options) {
   r.encoder_rate_hz = rate_of(r.runs.front().encoders);
   r.truth_position_sd_m = options.position_sd_m.value_or(0);
   r.truth_heading_sd_rad = options.heading_sd_rad.value_or(0);
-  set_floor_frame(r);
+  set_floor_frame(r, options.keep_frame);
   check_mount(r, options, result.remarks);
   try {
     result.limits = intake::check_recording(r, options.source);

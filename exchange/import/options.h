@@ -36,6 +36,7 @@ struct ImportOptions {
   std::string up = "+z";                ///< which axis of the tracker points up
   std::optional<Pose2> X_BT;            ///< the tracked frame T on the robot's body
   double truth_offset_s = 0;            ///< is added to the tracker's times
+  bool keep_frame = false;              ///< poses stay in the tracker's frame
   std::optional<double> position_sd_m, heading_sd_rad;
 
   // The runs.
