@@ -74,7 +74,7 @@ void add_tracker(CLI::App& c, exchange::ImportOptions& o) {
       ->group(kGroup);
   c.add_option("--truth-offset", o.truth_offset_s, "Seconds to add to the truth's times")->group(kGroup);
   c.add_flag("--keep-frame", o.keep_frame,
-             "Leave the poses in the tracker's frame; default: the first run starts at its origin")
+             "Leave the poses in the tracker's frame; default: the first run starts at the origin")
       ->group(kGroup);
   c.add_option("--position-sd", o.position_sd_m, "Noise of its positions, metres")
       ->check(CLI::Range(0.0, 1e3))

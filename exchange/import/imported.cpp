@@ -24,16 +24,36 @@ double rate_of(const std::vector<EncoderSample>& samples) {
   return std::abs(rate - std::round(rate)) < 0.02 * rate && rate >= 1 ? std::round(rate) : rate;
 }
 
-// One floor frame for all runs: the first one starts at its origin along +x.
-void set_floor_frame(Recording& recording, bool keep) {
-  constexpr double kTurned_rad = 0.2;  // beyond, a run was started the other way on purpose
-  const Pose2 X_FW = keep ? Pose2{} : inverse(recording.runs.front().truth.front().X_WB);
+// The pose before the wheels turn, from all that the tracker saw of it.
+Pose2 start_of(const RecordedRun& run) {
+  constexpr double kClocks_s = 0.1;  // by which they may differ
+  constexpr std::int64_t kStill = 2;
+  const EncoderSample& first = run.encoders.front();
+  const auto moves = std::find_if(run.encoders.begin(), run.encoders.end(), [&](const EncoderSample& s) {
+    return std::abs(s.left_ticks - first.left_ticks) > kStill || std::abs(s.right_ticks - first.right_ticks) > kStill;
+  });
+  const double until_s = moves == run.encoders.end() ? first.time_s : moves->time_s - kClocks_s;
+  Pose2 sum;
+  double poses = 0;
+  for (const TruthSample& t : run.truth) {
+    if (poses > 0 && t.time_s > until_s) break;
+    sum = {sum.x_m + t.X_WB.x_m, sum.y_m + t.X_WB.y_m, sum.theta_rad + t.X_WB.theta_rad};
+    poses += 1;
+  }
+  return {sum.x_m / poses, sum.y_m / poses, sum.theta_rad / poses};
+}
+
+// One floor frame for all runs, for what happens at a place: the first run starts at its origin along +x. Later ones
+// may have drifted from there; a quarter turn is on purpose.
+void set_floor_frame(Recording& recording) {
+  const Pose2 X_FW = inverse(start_of(recording.runs.front()));
   for (RecordedRun& run : recording.runs) {
     for (TruthSample& t : run.truth) t.X_WB = X_FW * t.X_WB;
     // Whole turns that the robot made before say nothing.
-    const double start = run.truth.front().X_WB.theta_rad, turns = start - wrap_angle(start);
+    const double start = start_of(run).theta_rad, turns = start - wrap_angle(start);
     for (TruthSample& t : run.truth) t.X_WB.theta_rad -= turns;
-    if (std::abs(wrap_angle(start)) > kTurned_rad) run.start_heading_rad = wrap_angle(start);
+    const double quarters = std::round((start - turns) / (M_PI / 2));
+    if (quarters != 0) run.start_heading_rad = quarters * M_PI / 2;
   }
 }
 
@@ -76,7 +96,7 @@ Imported import_recording(ImportOptions options) {
   r.encoder_rate_hz = rate_of(r.runs.front().encoders);
   r.truth_position_sd_m = options.position_sd_m.value_or(0);
   r.truth_heading_sd_rad = options.heading_sd_rad.value_or(0);
-  set_floor_frame(r, options.keep_frame);
+  if (!options.keep_frame) set_floor_frame(r);
   check_mount(r, options, result.remarks);
   try {
     result.limits = intake::check_recording(r, options.source);
