@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -13,6 +15,7 @@
 #include "exchange/export/ros2_control.h"
 #include "exchange/export/text_logs.h"
 #include "exchange/export/urdf_text.h"
+#include "experiment/drive_run.h"
 #include "experiment/replay.h"
 #include "experiment/result_folder.h"
 #include "experiment/result_json.h"
@@ -75,13 +78,29 @@ Files mcap(const Recording& recording, std::array<std::string, 2> joints, const 
           {"runs.csv", exchange::runs_csv(exchange::one_log(recording))}};
 }
 
-// Friction of the floor and creep of the tyres, as the twin has them.
+// Friction of the floor and creep of the tyres, as the twin has them. Gazebo's slip is a speed per force: creep (slip
+// ratio per traction ratio) at the twin's speed and half of the robot's weight.
 exchange::WheelContact contact_of(const Result& r, const RobotModel& model) {
-  exchange::WheelContact contact;
-  if (!r.twin_file.empty()) contact.friction = read_scenario(r.twin_file).floor_friction;
-  contact.slip_along = model.wheels[0].creep_along;
-  contact.slip_across = model.wheels[0].creep_across;
-  return contact;
+  if (r.twin_file.empty()) return {};
+  const Scenario twin = read_scenario(r.twin_file);
+  const Rig rig = rig_for(twin, model, {"export", Direction::cw, false, 0});
+  const double mps_per_n = 2 * twin.course.linear_speed_mps / (rig.robot.total_mass_kg() * twin.physics.gravity_mps2);
+  return {rig.floor.friction, mps_per_n * rig.robot.wheels[0].creep_along,
+          mps_per_n * rig.robot.wheels[0].creep_across};
+}
+
+// Read again: joints whose frames are turned against the axle's cannot be moved by their y alone.
+void check_urdf(const fs::path& file, const OdometryParameters& odometry) {
+  constexpr double kDigits_m = 1e-8;
+  const RobotModel model = load_robot(file.string());
+  const double off = std::max({std::abs(model.wheels[0].radius_m - odometry.left_radius_m),
+                               std::abs(model.wheels[1].radius_m - odometry.right_radius_m),
+                               std::abs(model.wheelbase_m() - odometry.wheelbase_m)});
+  if (off > kDigits_m) {
+    throw InputError(
+        fmt::format("{}: radii and wheelbase cannot be set: a wheel joint's frame is turned against its axle",
+                    file.filename().string()));
+  }
 }
 
 Files files_of(const Result& r, const ExportArguments& a) {
@@ -111,6 +130,7 @@ void export_result(const ExportArguments& a) {
   ResultFolder out(a.out, r.name + "-" + a.to, a.force);
   out.write([&](const fs::path& into) {
     for (const auto& [name, text] : files) write_text_file(into / name, text);
+    if (a.to == "urdf") check_urdf(into / files.front().first, odometry_of(r, load_robot(urdf_of(r, a))));
     write_text_file(into / "provenance.json", provenance_json(a.result, 0).dump(2) + "\n");
   });
   std::string names;

@@ -48,6 +48,14 @@ class Query {
 class Db3Bag : public Bag {
  public:
   explicit Db3Bag(const std::string& file) : file_(file) {
+    std::error_code ignored;
+    const std::string log = file + "-wal";
+    if (std::filesystem::exists(log, ignored) && std::filesystem::file_size(log, ignored) > 0) {
+      throw InputError(SourceMark{file},
+                       fmt::format("was not closed: what was recorded last lies in {}; `sqlite3 {} 'PRAGMA "
+                                   "wal_checkpoint'` puts it back",
+                                   log, file));
+    }
     // Read only, and without the files that a write-ahead log would make beside it.
     const std::string uri = "file:" + escaped(std::filesystem::absolute(file).string()) + "?mode=ro&immutable=1";
     if (sqlite3_open_v2(uri.c_str(), &db_, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr) != SQLITE_OK) {

@@ -12,12 +12,13 @@ namespace umbsim::exchange {
 /// file's wheels cannot be changed so (meshes alone, shapes that no plain scale changes).
 std::string calibrated_urdf(const std::string& file, const RobotModel& model, const OdometryParameters& odometry);
 
-/// An SDF snippet for Gazebo: its DiffDrive plugin, and what the wheels' contacts have. `friction`, `slip_along`,
-/// `slip_across`: of the twin.
+/// What the wheels' contacts have.
 struct WheelContact {
   double friction = 0.9;
-  double slip_along = 0, slip_across = 0;
+  double slip_along = 0, slip_across = 0;  ///< m/s per newton
 };
+
+/// An SDF snippet for Gazebo: its DiffDrive plugin, and the surface of the wheels.
 std::string diff_drive_sdf(const RobotModel& model, const OdometryParameters& odometry, const WheelContact& contact,
                            const std::string& provenance);
 

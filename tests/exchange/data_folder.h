@@ -23,6 +23,9 @@ inline Words joined(Words a, const Words& b) {
 inline const Words kRobot = {"--wheel-radius", "0.033", "--wheelbase", "0.16"};
 inline const Words kTicks = {"--ticks-per-revolution", "4096"};
 
+/// The squares of drive.py.
+inline const Words kRuns = {"cw-1", "ccw-1", "cw-2", "ccw-2"};
+
 /// Rows of numbers of a CSV file, without its header.
 inline std::vector<std::vector<double>> numbers_of(const fs::path& file) {
   std::vector<std::vector<double>> rows;

@@ -6,8 +6,6 @@
 namespace umbsim::acceptance {
 namespace {
 
-const std::vector<std::string> kRuns = {"cw-1", "ccw-1", "cw-2", "ccw-2"};
-
 /// A desk with the imported log of drive.py, its robot and its calibration.
 struct Lab : Desk {
   Lab() {

@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kRounded_m = 2e-6;  // of printed poses
 constexpr double kRounded_rad = 2e-6;
-const std::vector<std::string> kRuns = {"cw-1", "ccw-1", "cw-2", "ccw-2"};
 
 struct Form {
   const char* name;

@@ -281,6 +281,13 @@ TEST(Spoiled, BagsThatAreCutOffAreNamed) {
   }
 }
 
+TEST(Spoiled, ABagThatWasNotClosedIsNamed) {
+  const Desk desk;
+  desk.put("bag.db3", text_of(data("drive_db3/drive_0.db3")));
+  desk.put("bag.db3-wal", "pages");
+  expect_refused(desk, {"write-ahead log", {"bag.db3"}, {"bag.db3: was not closed", "wal_checkpoint"}});
+}
+
 // A bit that flips in a chunk is found by its checksum, or by the packing.
 TEST(Spoiled, DamagedChunksAreNamed) {
   for (const char* name : {"drive_zstd.mcap", "drive_lz4.mcap"}) {
