@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <array>
 #include <filesystem>
+#include <fstream>
 #include <map>
 
 #include "core/error.h"
@@ -45,9 +47,27 @@ class Query {
   sqlite3_stmt* statement_ = nullptr;
 };
 
+// SQLite reads a file without its last pages until it needs them: its header says how many there are.
+void check_length(const std::string& file) {
+  std::array<unsigned char, 100> head{};
+  std::ifstream in(file, std::ios::binary);
+  in.read(reinterpret_cast<char*>(head.data()), std::streamsize(head.size()));
+  const auto number = [&](std::size_t at) {
+    return std::uint64_t(head[at]) << 24 | std::uint64_t(head[at + 1]) << 16 | std::uint64_t(head[at + 2]) << 8 |
+           head[at + 3];
+  };
+  const std::uint64_t page = head[16] == 0 && head[17] == 1 ? 65536 : std::uint64_t(head[16]) << 8 | head[17];
+  const bool counted = number(24) == number(92) && number(28) > 0;  // by a version that keeps the count
+  const std::uint64_t size = std::filesystem::file_size(file);
+  if (!in || (counted && size < page * number(28))) {
+    throw InputError(SourceMark{file}, fmt::format("is cut off: it has {} of {} bytes", size, page * number(28)));
+  }
+}
+
 class Db3Bag : public Bag {
  public:
   explicit Db3Bag(const std::string& file) : file_(file) {
+    check_length(file);
     std::error_code ignored;
     const std::string log = file + "-wal";
     if (std::filesystem::exists(log, ignored) && std::filesystem::file_size(log, ignored) > 0) {

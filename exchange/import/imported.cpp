@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 #include "calibration/intake/intake.h"
@@ -43,10 +44,10 @@ Pose2 start_of(const RecordedRun& run) {
   return {sum.x_m / poses, sum.y_m / poses, sum.theta_rad / poses};
 }
 
-// One floor frame for all runs, for what happens at a place: the first run starts at its origin along +x. Later ones
-// may have drifted from there; a quarter turn is on purpose.
-void set_floor_frame(Recording& recording) {
-  const Pose2 X_FW = inverse(start_of(recording.runs.front()));
+// One floor frame for all runs, for what happens at a place: the first run starts at its origin along +x, unless the
+// tracker's own is kept. Later runs may have drifted from there; a quarter turn is on purpose.
+void set_floor_frame(Recording& recording, bool keep) {
+  const Pose2 X_FW = keep ? Pose2{} : inverse(start_of(recording.runs.front()));
   for (RecordedRun& run : recording.runs) {
     for (TruthSample& t : run.truth) t.X_WB = X_FW * t.X_WB;
     // Whole turns that the robot made before say nothing.
@@ -60,6 +61,12 @@ void set_floor_frame(Recording& recording) {
 // The words of the intake are those of recordings; a user of import has options.
 std::string with_options(const std::string& what) {
   const auto says = [&](const char* word) { return what.find(word) != std::string::npos; };
+  double ratio = 0;
+  const std::size_t at = what.find("the truth's way is ");
+  if (at != std::string::npos && std::sscanf(what.c_str() + at, "the truth's way is %lf", &ratio) == 1 &&
+      std::abs(ratio * 180 / M_PI - 1) < 0.1) {
+    return what + " (For import: the wheels' numbers are degrees, not radians.)";
+  }
   if (says("swapped")) {
     return what + " (For import: exchange --left-joint and --right-joint, or --left-column and --right-column.)";
   }
@@ -96,7 +103,7 @@ Imported import_recording(ImportOptions options) {
   r.encoder_rate_hz = rate_of(r.runs.front().encoders);
   r.truth_position_sd_m = options.position_sd_m.value_or(0);
   r.truth_heading_sd_rad = options.heading_sd_rad.value_or(0);
-  if (!options.keep_frame) set_floor_frame(r);
+  set_floor_frame(r, options.keep_frame);
   check_mount(r, options, result.remarks);
   try {
     result.limits = intake::check_recording(r, options.source);

@@ -19,7 +19,7 @@ std::unique_ptr<Source> open_table(const std::string& file, const ImportOptions&
   Table table = Table::read(file);
   if (EchoSource::looks_like(table)) return std::make_unique<EchoSource>(std::move(table), options);
   // Both have a layout of their own; evo writes TUM files with a commented header.
-  const bool asked = !options.left_column.empty() || !options.x_column.empty();
+  const bool asked = file == options.truth_file ? !options.x_column.empty() : !options.left_column.empty();
   const bool tum = TrajectorySource::is_tum(table) && (table.names().empty() || table.names().back() == "qw");
   if (!asked && (tum || (TrajectorySource::is_kitti(table) && table.names().empty()))) {
     return std::make_unique<TrajectorySource>(std::move(table), options);

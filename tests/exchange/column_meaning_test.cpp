@@ -35,7 +35,9 @@ TEST(ColumnMeaning, WheelsTimesAndPoses) {
                                          {"yaw_deg", Role::heading, "deg"}}) {
     const ColumnMeaning m = meaning_of(c.column);
     EXPECT_EQ(int(m.role), int(c.role)) << c.column;
-    if (m.role != Role::qw && m.role != Role::other) EXPECT_EQ(m.unit, c.unit) << c.column;
+    if (m.role != Role::qw && m.role != Role::other) {
+      EXPECT_EQ(m.unit, c.unit) << c.column;
+    }
   }
 }
 

@@ -221,7 +221,7 @@ def spoiled_files():
     bag("zero_quaternion", tracked=with_pose(100, [0.5, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]))
     bag("stamps_back", with_row(150, joint(150, [1.0, 1.0], at=rows[140][0])))
     bag("one_position", with_row(150, joint(150, [1.0])))
-    bag("outlier", tracked=with_pose(100, [3.0, 4.0, 0.0], quaternion(poses[100][3])))
+    bag("outlier", tracked=with_pose(100, [poses[100][1] + 0.1, poses[100][2] + 0.1, 0.0], quaternion(poses[100][3])))
     bag("swapped", names=JOINTS[::-1])
     bag("arm_only", names=["shoulder", "elbow"])
     bag("no_wheels", wheels=[])
