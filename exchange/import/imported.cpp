@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "calibration/intake/intake.h"
+#include "calibration/intake/samples.h"
 #include "core/error.h"
 #include "exchange/import/mount.h"
 #include "exchange/import/robot_numbers.h"
@@ -86,6 +87,8 @@ Imported import_recording(ImportOptions options) {
   result.found.insert(result.found.end(), log.found.begin(), log.found.end());
   require_numbers(robot, log);
   const RecordedRun whole = whole_run(log, options, robot, result.found);
+  // Squares and standstills are found by the counts; a counter that jumps hides them.
+  if (options.runs_file.empty()) intake::check_counts(options.source, whole, robot);
   result.cut = cut_of(whole, robot, options);
   Recording& r = result.recording;
   r.title = options.title.empty() ? std::filesystem::path(options.source).filename().string() : options.title;

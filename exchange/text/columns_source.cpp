@@ -92,8 +92,10 @@ void ColumnsSource::commands(Log& log, std::size_t time, std::int64_t time_ns) c
     }
     return signal;
   };
-  log.left_command = series(*left);
-  log.right_command = series(*right);
+  WheelSignal left_command = series(*left), right_command = series(*right);
+  if (left_command.at.empty() || right_command.at.empty()) return;  // columns without a number
+  log.left_command = std::move(left_command);
+  log.right_command = std::move(right_command);
   log.found.push_back(fmt::format("commands: columns '{}' and '{}', {}", log.left_command->name,
                                   log.right_command->name, name(log.left_command->unit)));
 }
