@@ -61,6 +61,15 @@ TEST(Export, McapImportsToTheSameNumbers) {
   expect_same_runs(lab.home / "mine", lab.home / "back", kLastDigit);
 }
 
+// The odometry was made of the counts: turned back it must be them.
+TEST(Export, OdometryTurnsBackIntoTheCounts) {
+  const Lab lab;
+  const fs::path bag = lab.exported("mine", "mcap");
+  lab.must({"import", bag.string(), "--encoders", "/odom", "--robot", data("robot.urdf"), "--ticks-per-revolution",
+            "4096", "--runs", (bag / "runs.csv").string(), "--keep-frame", "--out", "back"});
+  expect_same_runs(lab.home / "mine", lab.home / "back", kLastDigit);
+}
+
 TEST(Export, CsvImportsToTheSameNumbers) {
   const Lab lab;
   const fs::path csv = lab.exported("mine", "csv");

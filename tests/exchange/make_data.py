@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes the logs in data/ by independent code: `/usr/bin/python3 make_data.py [FOLDER [SECONDS]]`.
+"""Writes the logs in data/ by independent code: `/usr/bin/python3 make_data.py [FOLDER [SECONDS [HZ]]]`.
 
 MCAP and CDR from their specifications (mcap.py, cdr.py), SQLite by Python's module, ROS 1 by Debian's python3-rosbag
 (left out where it is not there). All of them hold the same drive (drive.py).
@@ -11,9 +11,12 @@ import sys
 
 import cdr
 import mcap
+import drive as the_drive
 from drive import BELIEVED, START_NS, drive
 
 FOLDER = sys.argv[1] if len(sys.argv) > 1 else os.path.join(os.path.dirname(os.path.abspath(__file__)), "data")
+if len(sys.argv) > 3:
+    the_drive.ENCODER_HZ = the_drive.TRACKER_HZ = int(sys.argv[3])
 ROWS, POSES, RUNS = drive(float(sys.argv[2]) if len(sys.argv) > 2 else None)
 JOINTS = ["wheel_left_joint", "wheel_right_joint"]
 RAD = 2 * math.pi / BELIEVED["ticks_per_revolution"]
