@@ -86,8 +86,26 @@ void from_methods(const json& result, CalibratedOdometry& c) {
   }
 }
 
-OdometryParameters nominal_of(const OdometryParameters& calibrated, const json& estimate) {
-  OdometryParameters o = calibrated;
+// What was believed before: said, or by the method's factors, or of the recording that was calibrated on.
+OdometryParameters nominal_of(const json& j, const Result& r, const CalibratedOdometry& c) {
+  if (j.contains("nominal")) {
+    const json& n = j["nominal"];
+    return {n.at("left_radius_m"), n.at("right_radius_m"), n.at("wheelbase_m"), 0};
+  }
+  OdometryParameters o = c.calibrated;
+  const json forms = j.value("calibration", json::object());
+  if (!forms.contains(c.method) || !forms[c.method].is_object()) {
+    std::error_code ignored;
+    if (r.input.empty() || !fs::exists(fs::path(r.input) / "recording.yaml", ignored)) {
+      throw InputError(SourceMark{r.folder},
+                       fmt::format("does not say what the robot was believed to be, and the recording "
+                                   "'{}' is not here: export from the folder in which it was made",
+                                   r.input));
+    }
+    const RecordedRobot robot = read_recording(r.input).robot;
+    return {robot.wheel_radius_m, robot.wheel_radius_m, robot.wheelbase_m, 0};
+  }
+  const json& estimate = forms[c.method];
   o.left_radius_m /= estimate.at("left_factor").get<double>();
   o.right_radius_m /= estimate.at("right_factor").get<double>();
   o.wheelbase_m /= estimate.at("e_b").get<double>();
@@ -108,12 +126,7 @@ void read_calibration(const fs::path& folder, Result& r) {
   c.method = j.value("method", "heading");
   const json& o = j.at("odometry");
   c.calibrated = {o.at("left_radius_m"), o.at("right_radius_m"), o.at("wheelbase_m"), 0};
-  if (j.contains("nominal")) {
-    const json& n = j["nominal"];
-    c.nominal = {n.at("left_radius_m"), n.at("right_radius_m"), n.at("wheelbase_m"), 0};
-  } else {
-    c.nominal = nominal_of(c.calibrated, j.at("calibration").at(c.method));
-  }
+  c.nominal = nominal_of(j, r, c);
   from_methods(j, c);
   if (j.contains("umbmark") && j["umbmark"].contains("cw")) {
     const double side = side_of(j["umbmark"], c);

@@ -157,6 +157,24 @@ TEST(Export, Ros2ControlHoldsTheCalibration) {
   EXPECT_NEAR(yy / (hh / 3), 1, 0.02);
 }
 
+// A calibration by a method that has no factors of its own: the recording says what was believed.
+TEST(Export, OtherMethodsBringTheirIntervals) {
+  const Lab lab;
+  json j = json_of(lab.home / "calibrated/calibration.json");
+  const double base = j["odometry"]["wheelbase_m"];
+  j["method"] = "likelihood";
+  j["methods"] = {{{"name", "likelihood"},
+                   {"wheelbase_m", {{"value", base}, {"ci95", {base - 0.0016, base + 0.0016}}}},
+                   {"left_m_per_sqrt_m", {{"value", 2e-4}}},
+                   {"right_m_per_sqrt_m", {{"value", 2e-4}}}}};
+  lab.put("calibrated/calibration.json", j.dump());
+  const std::string yaml = text_of(lab.exported("calibrated", "ros2_control") / "diff_drive_controller.yaml");
+  EXPECT_NEAR(number_at(yaml, "wheel_separation_multiplier"), base / 0.16, 1e-8);
+  expect_says(yaml, {"95 %: 1.000041 to 1.020041", "k_L 0.0002", "the fit of likelihood", "keep your own",
+                     // k^2 s / 2 after s = 1 m
+                     "pose_covariance_diagonal: [2.000e-08"});
+}
+
 TEST(Export, UrdfHasTheCalibratedWheels) {
   const Lab lab;
   const fs::path urdf = lab.exported("calibrated", "urdf", {"--robot", data("robot.urdf")}) / "robot.urdf";
