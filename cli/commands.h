@@ -8,6 +8,8 @@ namespace umbsim {
 void add_run_command(CLI::App& app);
 void add_sweep_command(CLI::App& app);
 void add_calibrate_command(CLI::App& app);
+void add_import_command(CLI::App& app);
+void add_export_command(CLI::App& app);
 void add_list_command(CLI::App& app);
 void add_effects_command(CLI::App& app);
 void add_explain_command(CLI::App& app);

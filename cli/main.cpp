@@ -24,7 +24,9 @@ using umbsim::kRunFailed;
 // Every subcommand, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
     umbsim::add_run_command,
+    umbsim::add_import_command,
     umbsim::add_calibrate_command,
+    umbsim::add_export_command,
     umbsim::add_list_command,
     umbsim::add_effects_command,
     umbsim::add_explain_command,

@@ -29,8 +29,9 @@ const std::map<std::string, Names> kArrows = {
     {"batch", {"core"}},
     {"gap", {"calibration", "recording", "odometry", "effects", "batch", "core"}},
     {"experiment", {"batch", "effects", "calibration", "umbmark", "recording", "odometry", "sim", "core"}},
+    {"exchange", {"calibration", "recording", "odometry", "sim", "core"}},
     {"cli",
-     {"experiment", "gap", "calibration", "report", "umbmark", "effects", "recording", "odometry", "sim", "batch",
+     {"exchange", "experiment", "gap", "calibration", "report", "umbmark", "effects", "recording", "odometry", "sim", "batch",
       "core"}},
 };
 /// Of effects/, gap/ may see the table only.
@@ -42,6 +43,7 @@ const Names kSeesBullet = {"sim", "tests/sim", "bench"};
 const Names kTopLevel = {"README.md", "CHANGELOG.md", "umbsim",      "test",   "CMakeLists.txt", "CMakePresets.json",
                          "scenarios", "robots",       "core",        "sim",    "odometry",       "effects",
                          "umbmark",   "recording",    "calibration", "gap",    "experiment",     "report", "batch",
+                         "exchange",
                          "cli",       "tests",        "bench",       "docs",   "cmake",          "results",
                          "slurm",     "LICENSE",      "CONTRIBUTING.md",       "CMakeUserPresets.json"};
 const Names kMustStand = {"README.md", "CHANGELOG.md", "umbsim", "test", "CMakeLists.txt", "CMakePresets.json"};

@@ -26,7 +26,7 @@ std::vector<std::string> commands_of(const std::string& file) {
 /// A folder in which `./umbsim` is the built program and the shipped files lie as in a checkout.
 void lay_out(const Desk& desk) {
   const fs::path source = UMBSIM_SOURCE_DIR;
-  for (const char* name : {"scenarios", "robots", "docs"}) fs::create_symlink(source / name, desk.home / name);
+  for (const char* name : {"scenarios", "robots", "docs", "tests"}) fs::create_symlink(source / name, desk.home / name);
   fs::create_symlink(UMBSIM_PROGRAM, desk.home / "umbsim");
   if (fs::is_directory(UMBSIM_SHARED_DIR)) fs::create_symlink(UMBSIM_SHARED_DIR, desk.home.parent_path() / "shared");
 }
@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Every, Document,
                          testing::Values("README.md", "docs/life-of-a-run.md", "docs/scenario.md", "docs/outputs.md",
                                          "docs/recording-format.md", "docs/conventions.md", "docs/architecture.md",
                                          "docs/physics.md", "docs/sweep.md", "docs/sweep-database.md", "docs/ci.md",
-                                         "docs/cluster.md"),
+                                         "docs/cluster.md", "docs/your-robot.md"),
                          [](const auto& param_info) {
                            std::string name = fs::path(param_info.param).stem().string();
                            for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';

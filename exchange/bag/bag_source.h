@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "exchange/bag/bag.h"
+#include "exchange/import/source.h"
+
+namespace umbsim::exchange {
+
+/// A ROS bag of any kind, in one file or several that follow each other.
+class BagSource : public Source {
+ public:
+  BagSource(std::string path, const std::vector<std::string>& files, const ImportOptions& options);
+
+  void wheels(Log& log) const override;
+  void truth(Log& log) const override;
+  /// Always: which topic it is, is asked for where it cannot be told.
+  bool has_truth() const override { return true; }
+
+ private:
+  std::vector<std::string> topics_of(const std::vector<std::string>& types) const;
+  const Topic& topic(const std::string& name, const std::string& option) const;
+  std::string list() const;
+  void wheels_of_odometry(const std::string& name, Log& log) const;
+  std::string choose_truth() const;
+
+  std::string path_;
+  std::vector<std::unique_ptr<Bag>> bags_;
+  std::vector<Topic> topics_;  ///< of all files, by name
+  const ImportOptions& options_;
+};
+
+}  // namespace umbsim::exchange
