@@ -101,12 +101,13 @@ void add_nothing(Closure& closure) {
   closure.worth.clear();
 }
 
-// Whether an explanation takes more millimetres off held-out runs than it leaves, or all that is beyond noise. Whatever
-// rolls and counts does so alike in every engine: seen by a tracker that is known, what it leaves speaks against it.
+// Whether an explanation takes more millimetres off held-out runs than it leaves, or all that is beyond noise, and what it
+// leaves of the evidence may be an error of its model: of a contact's, which differs from engine to engine, or of a
+// tracker's whose frame and clock are free. A place or a moment mends a part of any misfit.
 bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure) {
-  const bool may_err = !fit.only_rolls() || tracker_is_free(model.recording());
-  const bool takes_all = closure.after_mm <= closure.most_noise_mm;
-  return closure.known && may_err && (takes_all || closure.together().mm > closure.after_mm);
+  if (!closure.known || fit.is_local()) return false;
+  if (!tracker_is_free(model.recording())) return !fit.only_rolls() && closure.together().mm > closure.after_mm;
+  return closure.after_mm <= closure.most_noise_mm || closure.together().mm > closure.after_mm;
 }
 
 // Without the effects that foretell held-out runs worse than the others do alone, and the closure of what stays.

@@ -80,8 +80,8 @@ tf2_msgs/TFMessage transforms:geometry_msgs/TransformStamped[]
 
 std::string short_type(const std::string& type) {
   std::string slashed = type;
-  for (std::size_t at; (at = slashed.find("::")) != std::string::npos;) slashed.replace(at, 2, "/");
-  if (const std::size_t at = slashed.find("/msg/"); at != std::string::npos) slashed.replace(at, 5, "/");
+  for (std::size_t at; (at = slashed.find("::")) != std::string::npos;) slashed.replace(at, 2, 1, '/');
+  if (const std::size_t at = slashed.find("/msg/"); at != std::string::npos) slashed.replace(at, 5, 1, '/');
   if (slashed == "tf/tfMessage") return "tf2_msgs/TFMessage";  // of ROS 1's first years; the same fields
   return slashed;
 }
