@@ -18,7 +18,7 @@ struct Expected {
 
 // Dimensions as in the files' own comments and properties.
 const std::map<std::string, Expected> kRobots = {
-    {"create3", {0, {"on 4 supports", "by joint wheel_drop_left_joint", "track 233"}}},
+    {"create3", {0, {"on 3 supports", "by joint wheel_drop_left_joint", "track 233.00 mm"}}},
     {"husky_clearpath", {kBadInput, {"four driven wheels", "skid steering"}}},
     {"jackal", {kBadInput, {"four driven wheels"}}},
     {"kobuki", {0, {"on 4 supports", "radius 35.00 mm", "the default for more than three supports"}}},
@@ -26,9 +26,9 @@ const std::map<std::string, Expected> kRobots = {
     {"mir100", {0, {"on 6 supports", "a swivelling wheel"}}},
     {"ros2_control_diffbot", {0, {"is the right wheel by its place", "its name says left"}}},
     {"stretch_re1_no_tool", {kBadInput, {"link_left_wheel_collision.STL' is not found", "--wheel-radius"}}},
-    {"turtlebot3_burger", {0, {"track 160", "radius 33.00 mm", "Nothing is wrong"}}},
-    {"turtlebot3_waffle", {0, {"track 287"}}},
-    {"turtlebot3_waffle_pi", {0, {"track 287"}}},
+    {"turtlebot3_burger", {0, {"on 3 supports", "track 160.00 mm", "radius 33.00 mm"}}},
+    {"turtlebot3_waffle", {0, {"on 4 supports", "track 288.00 mm"}}},
+    {"turtlebot3_waffle_pi", {0, {"track 288.00 mm"}}},
     {"turtlebot4", {0, {"Wrong", "it tips over above 0.16", "lower course.linear_acceleration_mps2"}}},
 };
 
