@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
 #include "experiment/drive_run.h"
 
 namespace umbsim {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // A support with less than this share of the weight is as good as in the air.
 constexpr double kHardlyLoaded = 0.02;
 // A robot should stand this many times the acceleration that the course asks for.
@@ -46,7 +45,9 @@ AccelerationLimits slip_limits(const UnderstoodRobot& u) {
   const std::vector<double> shift = load_shift(u);
   const double mass_kg = u.body.mass_kg, grip_n = u.friction * (u.loads_n[0] + u.loads_n[1]);
   const double more = u.friction * (shift[0] + shift[1]);
-  const auto limit = [&](double gain) { return mass_kg > gain ? grip_n / (mass_kg - gain) : kInfinite; };
+  // The wheels never carry more than all of it.
+  const double most = u.friction * std::accumulate(u.loads_n.begin(), u.loads_n.end(), 0.0) / mass_kg;
+  const auto limit = [&](double gain) { return mass_kg > gain ? std::min(most, grip_n / (mass_kg - gain)) : most; };
   // Turning on the spot both wheels push by mu N at half the track, against the inertia about the axle's middle.
   const double yaw = u.body.inertia_kgm2(2, 2) + mass_kg * u.body.com_m.head<2>().squaredNorm();
   const double weaker_n = u.friction * std::min(u.loads_n[0], u.loads_n[1]);
