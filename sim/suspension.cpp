@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastTravel_m = 0.010;
+constexpr double kLeastTravel_m = 0.020;  // its half takes up a cable of 10 mm
 constexpr double kTravelPerRms = 8;
 constexpr double kLeanReserve = 4;
 // A support that carries less than this share of the weight has the spring of one that carries it.

@@ -78,8 +78,8 @@ TEST(Suspensions, ThreeSupportsStayRigid) {
 TEST(Suspensions, DefaultTravelGrowsWithTheFloor) {
   RobotModel robot = on_balls({{0.3, 0, -0.07}, {-0.3, 0, -0.07}}, 0);
   suspend(robot, {}, kG, 0);
-  EXPECT_NEAR(robot.wheels[0].suspension.up_m, 0.005, 1e-12);
-  EXPECT_NEAR(robot.wheels[0].suspension.stiffness_npm, 50 / 0.005, 1e-6);
+  EXPECT_NEAR(robot.wheels[0].suspension.up_m, 0.010, 1e-12);
+  EXPECT_NEAR(robot.wheels[0].suspension.stiffness_npm, 50 / 0.010, 1e-6);
   suspend(robot, {}, kG, 0.003);
   EXPECT_NEAR(robot.wheels[0].suspension.up_m, 0.012, 1e-12);
   // At most: sum of F d^2 = 4 W h sink. Along x 2 * 50 * 0.09 = 9, along y 2 * 50 * 0.04 = 4 = 4 * 200 * 0.1 * 0.05.
