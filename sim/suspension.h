@@ -16,8 +16,8 @@ struct SuspensionChoice {
   double damping_ratio = 0.7;  ///< of each support's load on its spring
 };
 
-/// Travel of supports of which nothing is known, where there are more than three of them: two centimetres, or eight times
-/// the root mean square height of an uneven floor, so that half of it covers four standard deviations. At most what
+/// Travel of supports of which nothing is known, where there are more than three of them: two centimetres, or eight
+/// times the root mean square height of an uneven floor, so that half of it covers four standard deviations. At most what
 /// leaves the robot four times the stiffness against leaning that it needs to stand at all, and one wheel radius.
 double default_travel_m(const RobotModel& robot, double floor_rms_m);
 
