@@ -28,6 +28,7 @@ constexpr void (*kCommands[])(CLI::App&) = {
     umbsim::add_calibrate_command,
     umbsim::add_export_command,
     umbsim::add_list_command,
+    umbsim::add_robot_command,
     umbsim::add_effects_command,
     umbsim::add_explain_command,
     umbsim::add_sweep_command,

@@ -44,6 +44,7 @@ void stop_if_asked() {
 void run(const RunArguments& a) {
   const Scenario scenario = read_scenario(shipped_path(ShippedKind::scenario, a.scenario), a.settings);
   ResultFolder out(a.out, scenario.name, a.force);
+  print_warnings(assumed_of_robot(scenario));
   print_warnings(silent_effects(scenario, load_scenario_robot(scenario)));
   check_room(expected_size(scenario), out.path());
   const ThreadLimit limit(a.jobs);  // of writing, too

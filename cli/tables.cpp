@@ -9,6 +9,7 @@
 
 #include "core/wrapped_text.h"
 #include "experiment/cable_layer.h"
+#include "experiment/wheel_loads.h"
 
 namespace umbsim {
 namespace {
@@ -114,6 +115,17 @@ std::string recovery_table(const ExperimentResult& r) {
   return text;
 }
 
+std::string loads_line(const ExperimentResult& r) {
+  const auto loads = wheel_loads(r);
+  return wrapped(fmt::format("Wheel loads: left {:.1f} N, at least {:.1f} N; right {:.1f} N, at least {:.1f} N",
+                             loads[0].mean_n, loads[0].least_n, loads[1].mean_n, loads[1].least_n)) +
+         [&] {
+           std::string text;
+           for (const std::string& warning : run_warnings(r)) text += wrapped("  Warning: " + warning + ".");
+           return text;
+         }();
+}
+
 std::string cables_line(const ExperimentResult& r) {
   std::string text;
   const LaidBumps& laid = r.scenario.bumps.laid;
@@ -160,7 +172,8 @@ std::string extended_table(const ExtendedUmbmark& e) {
 std::string experiment_table(const ExperimentResult& r) {
   std::string text =
       wrapped(fmt::format("{}: {} on a {} m square", r.scenario.name, r.nominal.urdf, r.scenario.course.side_m));
-  if (!r.umbmark) return text + one_way_table(r) + cables_line(r) + comparison_table(r) + uncertainty_line(r);
+  if (!r.umbmark)
+    return text + one_way_table(r) + cables_line(r) + comparison_table(r) + uncertainty_line(r) + loads_line(r);
   text += umbmark_table(*r.umbmark, r.applied(), r.injected);
   const double smaller_m = std::min(r.umbmark->cw.r_cg_m, r.umbmark->ccw.r_cg_m);
   if (smaller_m < r.umbmark->e_max_syst_m / 10) {
@@ -173,6 +186,7 @@ std::string experiment_table(const ExperimentResult& r) {
   if (r.extended) text += extended_table(*r.extended) + cables_line(r);
   text += uncertainty_line(r);
   if (!r.passes.empty()) text += recovery_table(r);
+  text += loads_line(r);
   text += wrapped(fmt::format("Cost: {:.1f} simulated s in {:.2f} s, {} steps, {} solver fallbacks", r.cost.simulated_s,
                               r.wall_s, r.cost.steps, r.cost.solver_fallbacks));
   return text;

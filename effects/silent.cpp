@@ -16,20 +16,22 @@ bool same(const Inertial& a, const Inertial& b) {
 
 bool same(const Wheel& a, const Wheel& b) {
   const auto& [joint, centre, axis, radius, width, eccentricity, phase, mass, spin, transverse, effort, compliance,
-               along, across, patch] = a;
+               along, across, patch, along_joint, slide, suspension] = a;
   return joint == b.joint && centre == b.centre_m && axis == b.axis && radius == b.radius_m && width == b.width_m &&
          eccentricity == b.eccentricity_m && (eccentricity == 0 || phase == b.eccentricity_rad) && mass == b.mass_kg &&
          spin == b.spin_inertia_kgm2 && transverse == b.transverse_inertia_kgm2 && effort == b.effort_limit_nm &&
          compliance == b.compliance_mpn && along == b.creep_along && across == b.creep_across &&
-         patch == b.patch_width_m;
+         patch == b.patch_width_m && along_joint == b.along_joint_m && slide == b.slide && suspension == b.suspension;
 }
 
 bool same(const Caster& a, const Caster& b) {
-  const auto& [link, centre, radius, friction, swivels, point, fork, mass, spin, transverse, swivel, angle] = a;
+  const auto& [link, centre, radius, friction, swivels, point, fork, mass, spin, transverse, swivel, angle, slide,
+               suspension] = a;
   return link == b.link && centre == b.centre_m && radius == b.radius_m && friction == b.friction &&
          swivels == b.swivels && point == b.swivel_point_m && same(fork, b.fork) && mass == b.wheel_mass_kg &&
          spin == b.wheel_spin_inertia_kgm2 && transverse == b.wheel_transverse_inertia_kgm2 &&
-         swivel == b.swivel_friction_nm && angle == b.initial_angle_rad;
+         swivel == b.swivel_friction_nm && angle == b.initial_angle_rad && slide == b.slide &&
+         suspension == b.suspension;
 }
 
 bool same(const Motor& a, const Motor& b) {

@@ -128,6 +128,7 @@ DrivenRun drive_plan(const Scenario& scenario, const Rig& rig, const Plan& plan,
   DrivenRun result = recorder.finish();
   result.track = std::move(track.track);
   result.cost = world.cost();
+  result.strain = {{world.strain(0), world.strain(1)}, periods * period_s};
   result.cables = cables.count();
   return result;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -43,6 +44,12 @@ struct RunOutput {
   std::function<void()> lap_done;  ///< called after every lap; what it throws ends the run
 };
 
+/// How the wheels of a run were loaded: left, right.
+struct RunStrain {
+  std::array<WheelStrain, 2> wheel{};
+  double time_s = 0;
+};
+
 /// What a run left behind, and what it cost. Rows are in `run` and `track` if they go to memory.
 struct DrivenRun {
   RecordedRun run;
@@ -50,6 +57,7 @@ struct DrivenRun {
   PoseTrack track;
   PhysicsCost cost;
   CableCount cables;
+  RunStrain strain;
 };
 
 /// The robot as it really is in this run: the nominal one with the scenario's effects and the run's noise.

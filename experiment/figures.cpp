@@ -51,7 +51,7 @@ ExperimentResult complete_result() {
     r.tracks.back().end = sample;
   }
   r.odometry = {1, 1, 1, 1};
-  CalibrationPass pass{{r.recording, r.digests, r.tracks}, r.odometry, *r.umbmark};
+  CalibrationPass pass{{r.recording, r.digests, r.tracks, {}}, r.odometry, *r.umbmark};
   pass.umbmark.e_max_syst_m = 1;
   r.passes.push_back(std::move(pass));
   return r;

@@ -87,11 +87,26 @@ std::string runs_block(const RunChoice& r) {
                      r.per_direction, r.start_heading_rad);
 }
 
+// What is left to the URDF is left out.
+std::string suspension_block(const SuspensionChoice& s) {
+  std::string text;
+  const auto add = [&](const char* key, double value) {
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", key, value);
+  };
+  if (s.wheel_travel_m) add("wheel_travel_m", *s.wheel_travel_m);
+  if (s.caster_travel_m) add("caster_travel_m", *s.caster_travel_m);
+  if (s.damping_ratio != SuspensionChoice{}.damping_ratio) add("damping_ratio", s.damping_ratio);
+  return text.empty() ? "" : "  suspension: {" + text + "}\n";
+}
+
 std::string robot_block(const RobotChoice& r) {
-  return fmt::format(
+  std::string text = fmt::format(
       "robot:\n  urdf: {}\n  left_joint: {}\n  right_joint: {}\n  caster_friction: {}\n  torque_limit_nm: {}\n",
       yaml_string(r.urdf), yaml_string(r.joints.left), yaml_string(r.joints.right), r.caster_friction,
       r.torque_limit_nm);
+  if (r.wheel_size.radius_m > 0) text += fmt::format("  wheel_radius_m: {}\n", r.wheel_size.radius_m);
+  if (r.wheel_size.width_m > 0) text += fmt::format("  wheel_width_m: {}\n", r.wheel_size.width_m);
+  return text + suspension_block(r.suspension);
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 #include "experiment/result_json.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "experiment/build_info.h"
+#include "experiment/wheel_loads.h"
 
 namespace umbsim {
 namespace {
@@ -113,6 +113,18 @@ Json uncertainty_json(const ExperimentResult& r) {
   return json;
 }
 
+Json loads_json(const ExperimentResult& r) {
+  Json json;
+  const auto loads = wheel_loads(r);
+  for (const auto& [l, side] : {std::pair{&loads[0], "left"}, std::pair{&loads[1], "right"}}) {
+    json[side] = {{"least_n", l->least_n},
+                  {"mean_n", l->mean_n},
+                  {"unloaded_share", l->unloaded_share},
+                  {"longest_unloaded_s", l->longest_unloaded_s}};
+  }
+  return json;
+}
+
 Json recovery_json(const ExperimentResult& r) {
   const CalibrationPass& last = r.passes.back();
   // What the calibration as a whole (all passes) says of the robot.
@@ -189,6 +201,7 @@ Json summary_json(const ExperimentResult& r) {
   json["injected"] = {{"e_d", r.injected.e_d}, {"e_b", r.injected.e_b}};
   if (r.umbmark) json["calibration"] = calibration_json(*r.umbmark, r.applied());
   if (!r.passes.empty()) json["recovery"] = recovery_json(r);
+  json["loads"] = loads_json(r);
   if (!r.warnings.empty()) json["warnings"] = r.warnings;
   json["cost"] = {{"simulated_s", r.cost.simulated_s},
                   {"wall_s", r.wall_s},

@@ -1,16 +1,17 @@
 #include "experiment/run.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "core/progress.h"
 #include "effects/silent.h"
 #include "experiment/check_loop.h"
 #include "experiment/first_failure.h"
+#include "experiment/wheel_loads.h"
 #include "recording/names.h"
 
 namespace umbsim {
@@ -49,6 +50,7 @@ void add(ExperimentResult& result, DrivenRun&& run, DrivenRuns& into) {
   into.recording.runs.push_back(std::move(run.run));
   into.digests.push_back(std::move(run.digest));
   into.tracks.push_back(std::move(run.track));
+  into.strains.push_back(run.strain);
 }
 
 // How an experiment is driven, whatever it is.
@@ -138,7 +140,7 @@ void calibrate_and_drive_again(ExperimentResult& result, int next_number, Drivin
   driving.rows.folder /= "calibrated";
   for (int pass = 0; pass < choice.max_passes && (pass == 0 || another_pass(*last)); ++pass) {
     odometry = corrected(odometry, estimate(*last, *method));
-    CalibrationPass done{{empty_recording(result.scenario, result.nominal), {}, {}}, odometry, {}};
+    CalibrationPass done{{empty_recording(result.scenario, result.nominal), {}, {}, {}}, odometry, {}};
     const std::vector<RunSpec> specs = plan_runs(result.scenario, false, next_number);
     next_number += int(specs.size());
     if (driving.rows.to == Rows::To::folder) std::filesystem::remove_all(driving.rows.folder);  // the last pass counts
@@ -186,7 +188,8 @@ ExperimentResult run_experiment(const Scenario& scenario, int jobs, bool show_pr
   result.injected = injected_errors(rig, result.odometry);
   result.odometry.ticks_per_revolution = rig.encoders.ticks_per_revolution;
   check_control_loop(scenario, rig);
-  result.warnings = silent_effects(scenario, result.nominal);
+  result.warnings = assumed_of_robot(scenario);
+  for (const std::string& silent : silent_effects(scenario, result.nominal)) result.warnings.push_back(silent);
 
   if (scenario.bumps.any()) {
     const std::vector<RunSpec> bumped = plan_runs(scenario, true, int(specs.size()));
@@ -198,6 +201,7 @@ ExperimentResult run_experiment(const Scenario& scenario, int jobs, bool show_pr
   measure(result);
 
   calibrate_and_drive_again(result, int(specs.size()), driving);
+  for (std::string& warning : run_warnings(result)) result.warnings.push_back(std::move(warning));
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

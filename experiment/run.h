@@ -16,6 +16,7 @@ struct DrivenRuns {
   Recording recording;             ///< plain runs, then bumped ones
   std::vector<RunDigest> digests;  ///< of each of its runs
   std::vector<PoseTrack> tracks;   ///< the same; empty ones if the scenario has no `uncertainty`
+  std::vector<RunStrain> strains{};  ///< the same
 };
 
 /// The squares driven again with calibrated odometry.
@@ -42,7 +43,7 @@ struct ExperimentResult : DrivenRuns {
   InjectedErrors injected;
   std::vector<CalibrationPass> passes;
   CableCount cables;                   ///< of all runs
-  std::vector<std::string> warnings;   ///< effects that change nothing
+  std::vector<std::string> warnings;   ///< what was assumed of the robot, effects that change nothing, what went wrong
   PhysicsCost cost;
   double wall_s = 0;
 

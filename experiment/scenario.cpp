@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/robot_choice.h"
 #include "experiment/settings.h"
 
 namespace umbsim {
@@ -12,18 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMaxRate_hz = 10000;
-
-RobotChoice read_robot(const YamlValue& value) {
-  YamlMap map(value);
-  RobotChoice r;
-  r.urdf = map.string("urdf", r.urdf);
-  r.joints.left = map.string("left_joint", "");
-  r.joints.right = map.string("right_joint", "");
-  r.caster_friction = map.number("caster_friction", r.caster_friction, Bounds::between(0, 2));
-  r.torque_limit_nm = map.number("torque_limit_nm", r.torque_limit_nm, Bounds::at_least(0));
-  map.finish();
-  return r;
-}
 
 EncoderSpec read_encoders(const YamlValue& value) {
   YamlMap map(value);

@@ -9,6 +9,7 @@
 #include "experiment/expect.h"
 #include "odometry/dead_reckoning.h"
 #include "odometry/uncertainty.h"
+#include "sim/suspension.h"
 #include "sim/world.h"
 #include "umbmark/course.h"
 
@@ -17,6 +18,8 @@ namespace umbsim {
 struct RobotChoice {
   std::string urdf = "labmate.urdf";  ///< beside the scenario, or in robots/
   DriveJoints joints;
+  WheelSize wheel_size;  ///< 0: the URDF's
+  SuspensionChoice suspension;
   double caster_friction = 0;         ///< of fixed balls against the floor
   double torque_limit_nm = 0;         ///< at each wheel; 0: the URDF's effort limit, else what the tyres can pass on
 };
@@ -118,13 +121,18 @@ std::string resolved_yaml(const Scenario& scenario);
 /// The URDF that the scenario names, found beside the scenario or in the shipped robots/.
 std::string scenario_urdf(const Scenario& scenario);
 
+/// Its text; with the drive wheels' shapes in it where these come from a mesh or from the scenario.
 std::string scenario_urdf_text(const Scenario& scenario);
 
 /// Writes a scenario that runs wherever its folder is taken to: every value written out, the robot's URDF beside it.
 void write_scenario(Scenario scenario, const std::filesystem::path& file);
 
-/// The robot that the scenario names, found beside the scenario or in the shipped robots/.
-RobotModel load_scenario_robot(const Scenario& scenario);
+/// The robot that the scenario names, found beside the scenario or in the shipped robots/, on its suspension.
+/// `remarks`: what a reader of the URDF wants to be told.
+RobotModel load_scenario_robot(const Scenario& scenario, std::vector<Remark>* remarks = nullptr);
+
+/// What was assumed of the scenario's robot because its URDF does not say it, as warnings.
+std::vector<std::string> assumed_of_robot(const Scenario& scenario);
 
 /// The odometry that the scenario starts with: nominal dimensions unless it gives others.
 OdometryParameters initial_odometry(const Scenario& scenario, const RobotModel& nominal);

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <filesystem>
 
@@ -5,6 +7,7 @@
 #include "experiment/robots.h"
 #include "experiment/scenario.h"
 #include "recording/names.h"
+#include "sim/urdf_completed.h"
 
 namespace umbsim {
 namespace {
@@ -26,7 +29,10 @@ std::string scenario_urdf(const Scenario& s) {
   return fs::path(robots_directory()) / given;
 }
 
-std::string scenario_urdf_text(const Scenario& s) { return read_text_file(scenario_urdf(s), kMaxUrdfBytes); }
+std::string scenario_urdf_text(const Scenario& s) {
+  const std::string file = scenario_urdf(s);
+  return urdf_with_wheels(read_text_file(file, kMaxUrdfBytes), load_robot(file, s.robot.joints, s.robot.wheel_size));
+}
 
 void write_scenario(Scenario s, const fs::path& file) {
   const std::string text = scenario_urdf_text(s);
@@ -35,10 +41,22 @@ void write_scenario(Scenario s, const fs::path& file) {
   write_text_file(file, resolved_yaml(s));
 }
 
-RobotModel load_scenario_robot(const Scenario& scenario) {
-  RobotModel robot = load_robot(scenario_urdf(scenario), scenario.robot.joints);
-  for (Caster& caster : robot.casters) caster.friction = scenario.robot.caster_friction;
+RobotModel load_scenario_robot(const Scenario& s, std::vector<Remark>* remarks) {
+  RobotModel robot = load_robot(scenario_urdf(s), s.robot.joints, s.robot.wheel_size, remarks);
+  for (Caster& caster : robot.casters) caster.friction = s.robot.caster_friction;
+  suspend(robot, s.robot.suspension, s.physics.gravity_mps2, s.noise.floor_rms_m, remarks);
   return robot;
+}
+
+std::vector<std::string> assumed_of_robot(const Scenario& s) {
+  std::vector<Remark> remarks;
+  load_robot(scenario_urdf(s), s.robot.joints, s.robot.wheel_size, &remarks);
+  std::vector<std::string> warnings;
+  for (const Remark& r : remarks) {
+    if (r.kind == Remark::Kind::assumed)
+      warnings.push_back(fmt::format("{}: {}", fs::path(s.robot.urdf).filename().string(), r.text));
+  }
+  return warnings;
 }
 
 OdometryParameters initial_odometry(const Scenario& s, const RobotModel& nominal) {

@@ -30,7 +30,9 @@ void World::State::add_contacts(double step_s, const DofVector& u) {
   for (int i = 0; i < int(supports.size()); ++i) {
     const RollingShape round = shape(supports[i]);
     const NearestPoint ground = nearest_on_floor(floor, round);
-    if (ground.distance_m < watch_m) add_contact(i, ground, step_s, u);
+    // A wheel that hangs comes down.
+    const double hanging_m = sprung ? step_s * std::abs(spring_speed(supports[i], 0, step_s)) : 0;
+    if (ground.distance_m < watch_m + hanging_m) add_contact(i, ground, step_s, u);
     for (const Cable& cable : floor.cables) {
       NearestPoint nearest;
       const double reach_m = round.radius_m + cable.length_m + cable.height_m;
@@ -55,7 +57,7 @@ void World::State::add_contact(int support, const NearestPoint& nearest, double 
   const Vector3d& axis = hinge.axis;
   const Vector3d towards = s.disc ? Vector3d((axis * axis.dot(normal) - normal).normalized()) : Vector3d(-normal);
   const double half_step_rad = s.wheel >= 0 ? 0.5 * step_s * u[6 + s.wheel] : 0;
-  const Vector3d rim = rim_centre(s, hinge, half_step_rad) + rolling_radius(s) * towards;
+  const Vector3d rim = rim_centre(s, hinge, half_step_rad) + rolling_radius(s) * towards + shift(s);
   const double friction =
       s.friction_scale * friction_at(floor, nearest.point_m.x(), nearest.point_m.y()) + s.own_friction;
   problem.contact[problem.contacts] = {rows, friction};
@@ -64,7 +66,7 @@ void World::State::add_contact(int support, const NearestPoint& nearest, double 
   const double spring = step_s * s.stiffness_npm + s.damping_nspm;
   const bool soft = s.stiffness_npm > 0;
   const double gap_m = nearest.distance_m;
-  const MultiBody::Lever lever = body.lever(s.joint, rim);
+  const MultiBody::Lever lever = body.lever(s.joint, rim, shift(s));
   body.jacobian(lever, normal, row[rows]);
   compliance[rows] = soft ? 1 / (step_s * spring) : kMobility / step_s;
   problem.b[rows] = speed_along(row[rows], u) + (soft && gap_m < 0 ? gap_m * s.stiffness_npm / spring : gap_m / step_s);

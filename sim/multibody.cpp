@@ -254,11 +254,11 @@ Joint MultiBody::swung(Joint j) const {
   return j;
 }
 
-MultiBody::Lever MultiBody::lever(int joint, const Vector3d& point_m) const {
+MultiBody::Lever MultiBody::lever(int joint, const Vector3d& point_m, const Vector3d& shift_m) const {
   Lever l;
   l.arm_m = point_m - com_B_;
   for (int j = joint; j >= 0; j = joints_[j].parent) {
-    const auto add = [&](const Joint& at) { l.turn_m[l.joints] = at.axis.cross(point_m - at.pivot_m); };
+    const auto add = [&](const Joint& at) { l.turn_m[l.joints] = at.axis.cross(point_m - at.pivot_m - shift_m); };
     if (joints_[j].parent < 0) add(joints_[j]);
     else add(current(j));
     l.joint[l.joints++] = j;

@@ -80,7 +80,9 @@ class MultiBody {
     int joint[2];               ///< that move the point
     Eigen::Vector3d turn_m[2];  ///< velocity of the point per joint speed
   };
-  Lever lever(int joint, const Eigen::Vector3d& point_m) const;
+  /// `shift_m`: how far the suspension carries the part, point and axle together, from where its joint is in the model.
+  Lever lever(int joint, const Eigen::Vector3d& point_m,
+              const Eigen::Vector3d& shift_m = Eigen::Vector3d::Zero()) const;
   void jacobian(const Lever& lever, const Eigen::Vector3d& direction, DofVector& row) const;
 
   /// Row of the contact Jacobian: velocity along `direction` of the material point `point_m` of the part behind

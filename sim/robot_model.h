@@ -16,6 +16,32 @@ struct Inertial {
   Eigen::Matrix3d inertia_kgm2 = Eigen::Matrix3d::Zero();  ///< about the centre of mass
 };
 
+/// A spring that carries a wheel or caster, up and down along z of the base. At its place in the URDF it pushes the
+/// wheel down with `preload_n`; from there it goes `up_m` into the robot and `down_m` out of it, between rigid stops.
+struct Suspension {
+  double stiffness_npm = 0;  ///< 0: none, the axle is part of the base
+  double damping_nspm = 0;
+  double preload_n = 0;
+  double up_m = 0;
+  double down_m = 0;
+  double rest_load_n =
+      0;  ///< that the support carries on a flat floor; 0: not known, found by letting the robot settle
+
+  bool sprung() const { return stiffness_npm > 0; }
+  bool operator==(const Suspension&) const = default;
+};
+
+/// A prismatic upright joint between base and wheel, as the URDF gives it. Up is into the robot.
+struct Slide {
+  std::string joint;  ///< empty: there is none
+  double up_m = 0;
+  double down_m = 0;
+  double stiffness_npm = 0;  ///< 0: not given
+  double preload_n = 0;      ///< at joint position zero; only with a stiffness
+
+  bool operator==(const Slide&) const = default;
+};
+
 /// A driven wheel. Frame: the robot's base frame (origin in the middle between both wheel centres, x forward,
 /// y left, z up).
 struct Wheel {
@@ -35,6 +61,9 @@ struct Wheel {
   double creep_along = 0;        ///< slip per traction ratio (F/N) before sliding, rolling direction
   double creep_across = 0;       ///< the same sideways
   double patch_width_m = 0;      ///< of the contact, for its friction against turning on the spot
+  double along_joint_m = 0;      ///< of the middle plane from the joint's origin, along the URDF's axis
+  Slide slide;
+  Suspension suspension;
 };
 
 /// A support that is not driven: a fixed ball, or a wheel that swivels about an upright axis.
@@ -53,6 +82,8 @@ struct Caster {
   double wheel_transverse_inertia_kgm2 = 0;
   double swivel_friction_nm = 0;   ///< dry friction of the swivel bearing
   double initial_angle_rad = 0;    ///< of the swivel at the start of a run
+  Slide slide;
+  Suspension suspension;
 };
 
 /// A differential-drive robot as plain data: what the URDF says, reduced to the bodies that matter.
@@ -62,6 +93,7 @@ struct RobotModel {
   std::string urdf;  ///< file name without folders
   Inertial base;     ///< base frame
   std::array<Wheel, 2> wheels;  ///< left, right
+  bool outside_shapes = false;  ///< the wheels' shapes are not in the URDF's collisions (sim/urdf_completed.h)
   std::vector<Caster> casters;
 
   double wheelbase_m() const { return (wheels[0].centre_m - wheels[1].centre_m).norm(); }
@@ -74,10 +106,30 @@ struct DriveJoints {
   std::string right;
 };
 
+/// The drive wheels where the URDF's collision shapes do not tell. 0: take it from the URDF.
+struct WheelSize {
+  double radius_m = 0;
+  double width_m = 0;
+};
+
+/// What a reader of a URDF wants to be told of it.
+struct Remark {
+  enum class Kind {
+    understood,  ///< found by geometry, against what names or habits suggest
+    assumed,     ///< the file does not say it; something that hardly matters to a drive on the floor
+    ignored,     ///< does not matter
+  };
+  Kind kind = Kind::understood;
+  std::string text;
+};
+
 /// Reads a differential-drive URDF. Drive joints are those named, or the two continuous joints whose axes are
-/// collinear (left is the one on the side of +y). Throws InputError naming file, link and joint: not a URDF, missing or
-/// non-positive inertia, a massless link, no wheel shape, two candidates for a wheel, more than two drive wheels
-/// (skid steer), no third support.
-RobotModel load_robot(const std::string& urdf_file, const DriveJoints& joints = {});
+/// collinear (left is the one on the side of +y). A wheel is its collision cylinder or sphere, else of `size`, else
+/// what bounds its mesh file, else its visual cylinder or sphere. Throws InputError naming file, link and joint: not a
+/// URDF, a base or drive wheel without mass or with an impossible inertia, no wheel shape, two candidates for a wheel,
+/// more than two drive wheels (skid steer), no third support. Flaws of light links that do not drive are completed, and
+/// said in `remarks`.
+RobotModel load_robot(const std::string& urdf_file, const DriveJoints& joints = {}, const WheelSize& size = {},
+                      std::vector<Remark>* remarks = nullptr);
 
 }  // namespace umbsim

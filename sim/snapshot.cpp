@@ -27,9 +27,9 @@ bool goes_on_alike(const Snapshot& a, const Snapshot& b) {
   const Eigen::Vector3d up_b = b.q_WB.conjugate() * Eigen::Vector3d::UnitZ();
   return alike(a.velocity, b.velocity, kAlike) && alike(a.joint_rad, b.joint_rad, kAlike) &&
          alike(a.set_point_radps, b.set_point_radps, kAlike) && alike(a.shaft_rad, b.shaft_rad, kAlike) &&
-         alike(a.radius_factor, b.radius_factor, kAlike) && std::abs(a.p_WB_m.z() - b.p_WB_m.z()) < kAlike &&
-         (up_a - up_b).norm() < kAlike && alike(a.loads.wheel_n, b.loads.wheel_n, kAlike_n) &&
-         alike(a.loads.caster_n, b.loads.caster_n, kAlike_n);
+         alike(a.radius_factor, b.radius_factor, kAlike) && alike(a.spring_up_m, b.spring_up_m, kAlike) &&
+         std::abs(a.p_WB_m.z() - b.p_WB_m.z()) < kAlike && (up_a - up_b).norm() < kAlike &&
+         alike(a.loads.wheel_n, b.loads.wheel_n, kAlike_n) && alike(a.loads.caster_n, b.loads.caster_n, kAlike_n);
 }
 
 Snapshot World::snapshot() const {
@@ -46,6 +46,7 @@ Snapshot World::snapshot() const {
   now.zero_angle_rad = s.zero_angle_rad;
   now.radius_factor = s.radius_factor;
   now.rest_load_n = s.rest_load_n;
+  for (std::size_t i = 0; i < s.supports.size(); ++i) now.spring_up_m[i] = s.supports[i].up_m;
   now.loads = s.loads;
   now.time_s = s.time_s;
   now.heading_rad = s.heading_rad;
@@ -68,6 +69,7 @@ void World::resume(const Snapshot& then, const Pose2& X_moved) {
   s.zero_angle_rad = then.zero_angle_rad;
   s.radius_factor = then.radius_factor;
   s.rest_load_n = then.rest_load_n;
+  for (std::size_t i = 0; i < s.supports.size(); ++i) s.supports[i].up_m = then.spring_up_m[i];
   s.loads = then.loads;
   s.time_s = then.time_s;
   s.heading_rad = then.heading_rad + X_moved.theta_rad;

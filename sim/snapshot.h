@@ -22,6 +22,7 @@ struct Snapshot {
   std::array<double, 2> zero_angle_rad{};
   std::array<double, 2> radius_factor{1, 1};
   std::array<double, 2> rest_load_n{};
+  std::array<double, 8> spring_up_m{};  ///< of the supports
   SupportLoads loads;
   double time_s = 0;
   double heading_rad = 0;

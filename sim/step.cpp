@@ -26,8 +26,10 @@ void World::State::step(double step_s, const std::array<double, 2>& target_radps
   if (!step_with_holding_motors(step_s, target_radps, u)) step_with_motor_rows(step_s, target_radps, u);
   count(report);
   note_loads(step_s);
+  note_strain(step_s);
   body.set_velocity(u);
   body.integrate(step_s);
+  if (sprung) move_springs(step_s);
   move_shafts(step_s, target_radps);
   time_s += step_s;
   track_heading();
@@ -49,7 +51,7 @@ bool World::State::step_with_holding_motors(double step_s, const std::array<doub
   v.head<kBaseAndWheels>() = u.head<kBaseAndWheels>() + held->gain.lazyProduct(change);
   add_contacts(step_s, v);
   assemble<kBase>(held->inverse_mass.data(), kBase, kBaseAndWheels);
-  solve();
+  solve(step_s);
 
   Eigen::Matrix<double, kBaseAndWheels, 1> push = Eigen::Matrix<double, kBaseAndWheels, 1>::Zero();  // J^T x
   for (int i = 0; i < rows; ++i) push += row[i].head<kBaseAndWheels>() * impulses[i];
@@ -73,7 +75,7 @@ void World::State::step_with_motor_rows(double step_s, const std::array<double, 
   const int dofs = body.dofs();
   if (dofs == kBaseAndWheels) assemble<kBaseAndWheels>(M_inverse.data(), dofs, dofs);
   else assemble<Eigen::Dynamic>(M_inverse.data(), dofs, dofs);
-  solve();
+  solve(step_s);
   for (int i = 0; i < rows; ++i) u += response[i] * impulses[i];
 }
 
@@ -178,9 +180,12 @@ void World::State::assemble(const double* M_inverse, int dofs, int stride) {
   }
 }
 
-void World::State::solve() {
+void World::State::solve(double step_s) {
   problem.b.conservativeResize(rows);
-  report = solve_contacts(problem, impulses);
+  if (sprung)
+    solve_on_springs(step_s);
+  else
+    report = solve_contacts(problem, impulses);
 }
 
 void World::State::count(const SolveReport& done) {

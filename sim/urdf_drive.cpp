@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "sim/urdf_drive_remarks.h"
+
 namespace umbsim {
 namespace {
 
@@ -28,12 +30,27 @@ bool can_drive(const std::vector<Body>& bodies, int index) {
   return true;
 }
 
-Candidates find_candidates(const UrdfSource& source, const std::vector<Body>& bodies) {
+// Balls are often given a joint as if they were wheels. Beside two wheels they are casters.
+void drop_balls(const UrdfSource& source, const std::vector<Body>& bodies, std::vector<RollingWheel>& wheels) {
+  const auto is_ball = [&](const RollingWheel& wheel) {
+    const auto& shapes = bodies[wheel.body].shapes;
+    return !shapes.empty() && shapes[0].kind == Shape::Kind::sphere;
+  };
+  if (wheels.size() < 3 || wheels.size() - std::count_if(wheels.begin(), wheels.end(), is_ball) < 2) return;
+  for (const RollingWheel& wheel : wheels) {
+    if (!is_ball(wheel)) continue;
+    source.remark(Remark::Kind::understood, source.joint_text(bodies[wheel.body].joint) +
+                                                ": a ball beside two wheels is a caster, whatever its joint");
+  }
+  std::erase_if(wheels, is_ball);
+}
+
+Candidates find_candidates(const UrdfSource& source, const std::vector<Body>& bodies, const WheelSize& size) {
   Candidates found;
   double floor = std::numeric_limits<double>::infinity();
   for (int i = 1; i < int(bodies.size()); ++i) {
     if (!can_drive(bodies, i)) continue;
-    WheelShape shape = wheel_shape(source, bodies, i);
+    WheelShape shape = wheel_shape(source, bodies, i, size);
     if (!shape.fault.empty()) {
       found.faults.emplace_back(i, shape.fault);
     } else {
@@ -44,6 +61,7 @@ Candidates find_candidates(const UrdfSource& source, const std::vector<Body>& bo
   std::erase_if(found.on_floor, [&](const RollingWheel& wheel) {
     return wheel.lowest_m() > floor + kFloorTolerance_radii * wheel.radius_m;  // a brush, a conveyor roller
   });
+  drop_balls(source, bodies, found.on_floor);
   return found;
 }
 
@@ -127,7 +145,8 @@ Pair automatic_pair(const UrdfSource& source, const std::vector<Body>& bodies, c
                   source.joint_text(bodies[a.body].joint), misalignment_rad(bodies, a, b), kCollinear_rad));
 }
 
-RollingWheel named_wheel(const UrdfSource& source, const std::vector<Body>& bodies, const std::string& joint) {
+RollingWheel named_wheel(const UrdfSource& source, const std::vector<Body>& bodies, const std::string& joint,
+                         const WheelSize& size) {
   const auto named = [&](const Body& body) { return body.joint == joint; };
   const int index = int(std::find_if(bodies.begin() + 1, bodies.end(), named) - bodies.begin());
   if (index == int(bodies.size()) || !bodies[index].continuous) {
@@ -142,16 +161,17 @@ RollingWheel named_wheel(const UrdfSource& source, const std::vector<Body>& bodi
   if (!can_drive(bodies, index)) {
     source.fail_at_joint(joint, "cannot drive: its axis is not horizontal, or it is behind another continuous joint");
   }
-  WheelShape shape = wheel_shape(source, bodies, index);
+  WheelShape shape = wheel_shape(source, bodies, index, size);
   if (!shape.fault.empty()) source.fail_at_joint(joint, "cannot be a drive wheel: " + shape.fault);
   return shape.wheel;
 }
 
-Pair named_pair(const UrdfSource& source, const std::vector<Body>& bodies, const DriveJoints& joints) {
+Pair named_pair(const UrdfSource& source, const std::vector<Body>& bodies, const DriveJoints& joints,
+                const WheelSize& size) {
   if (joints.left.empty() || joints.right.empty() || joints.left == joints.right) {
     source.fail(fmt::format("name both drive joints or none: left is '{}', right is '{}'", joints.left, joints.right));
   }
-  Pair pair{named_wheel(source, bodies, joints.left), named_wheel(source, bodies, joints.right)};
+  Pair pair{named_wheel(source, bodies, joints.left, size), named_wheel(source, bodies, joints.right, size)};
   const double off = misalignment_rad(bodies, pair.first, pair.second);
   if (off > kCollinear_rad) {
     source.fail_at_joint(joints.right,
@@ -197,10 +217,11 @@ Eigen::Isometry3d Drive::root_in_base() const {
   return base_in_root.inverse();
 }
 
-Drive find_drive(const UrdfSource& source, const std::vector<Body>& bodies, const DriveJoints& joints) {
+Drive find_drive(const UrdfSource& source, const std::vector<Body>& bodies, const DriveJoints& joints,
+                 const WheelSize& size) {
   const bool named = !joints.left.empty() || !joints.right.empty();
-  const Candidates found = find_candidates(source, bodies);
-  const Pair pair = named ? named_pair(source, bodies, joints) : automatic_pair(source, bodies, found);
+  const Candidates found = find_candidates(source, bodies, size);
+  const Pair pair = named ? named_pair(source, bodies, joints, size) : automatic_pair(source, bodies, found);
   const auto in_pair = [&](const RollingWheel& w) { return w.body == pair.first.body || w.body == pair.second.body; };
   if (!std::all_of(found.on_floor.begin(), found.on_floor.end(), in_pair)) {
     refuse_more_wheels(source, bodies, found.on_floor, pair);
@@ -213,7 +234,9 @@ Drive find_drive(const UrdfSource& source, const std::vector<Body>& bodies, cons
                                      pair.second.radius_m, pair.first.radius_m,
                                      source.joint_text(bodies[pair.first.body].joint), kRadiusRatio));
   }
-  return with_sides(source, bodies, pair, named);
+  const Drive drive = with_sides(source, bodies, pair, named);
+  remark_drive(source, bodies, drive);
+  return drive;
 }
 
 }  // namespace umbsim

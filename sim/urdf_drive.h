@@ -21,6 +21,7 @@ struct Drive {
 
 /// Finds the drive wheels as load_robot says. Both joint axes are then taken as the line between the wheel centres:
 /// a nominal description has no toe and no camber, and 1.57 for pi/2 is not one.
-Drive find_drive(const UrdfSource& source, const std::vector<Body>& bodies, const DriveJoints& joints);
+Drive find_drive(const UrdfSource& source, const std::vector<Body>& bodies, const DriveJoints& joints,
+                 const WheelSize& size = {});
 
 }  // namespace umbsim

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -57,7 +58,22 @@ void check_base(const UrdfSource& source, const Body& root, const Inertial& base
   if (!fault.empty()) source.fail_at_link(root.link, "with all that is fixed to it: " + fault);
 }
 
+// A drive wheel without mass or with an impossible inertia is not completed: how it spins matters.
+void check_wheel(const UrdfSource& source, const Body& body, const Inertial& inertial) {
+  for (const Flaw& flaw : body.flaws) {
+    if (flaw.of_inertia && flaw.link == body.link) source.fail_at_link(flaw.link, flaw.what);
+  }
+  if (inertial.mass_kg == 0) {
+    source.fail_at_link(body.link,
+                        "massless behind a moving joint: give it an <inertial> with mass and inertia, or make the "
+                        "joint fixed");
+  }
+  const std::string fault = inertia_fault(inertial.inertia_kgm2);
+  if (!fault.empty()) source.fail_at_link(body.link, fault);
+}
+
 Wheel make_wheel(const UrdfSource& source, const Body& body, const Inertial& inertial, const RollingWheel& rolling) {
+  check_wheel(source, body, inertial);
   const RollingMass mass = rolling_mass(source, body, inertial, rolling.radius_m);
   Wheel wheel;
   wheel.joint = body.joint;
@@ -70,12 +86,42 @@ Wheel make_wheel(const UrdfSource& source, const Body& body, const Inertial& ine
   return wheel;
 }
 
+constexpr double kForkShare = 0.01, kCasterWheelShare = 0.005;  // of the robot, where the file says nothing
+
+// The swivelling parts of a caster are light: what they weigh hardly shows.
+void complete_fork(const UrdfSource& source, const Body& body, double robot_kg, Caster& caster) {
+  const double r2 = caster.radius_m * caster.radius_m;
+  Inertial& fork = caster.fork;
+  const std::string fault = fork.mass_kg == 0 ? "without mass" : inertia_fault(fork.inertia_kgm2);
+  if (fault.empty()) return;
+  if (fork.mass_kg == 0) fork = {kForkShare * robot_kg, caster.centre_m, {}};
+  fork.inertia_kgm2 = fork.mass_kg * r2 * Eigen::Matrix3d::Identity();
+  source.remark(Remark::Kind::assumed, fmt::format("{}: {}; taken as {:.3g} kg with a radius of gyration of {:.3g} m",
+                                                   source.link_text(body.link), fault, fork.mass_kg, caster.radius_m));
+}
+
+RollingMass complete_wheel(const UrdfSource& source, const Body& body, Inertial inertial, double robot_kg,
+                           double radius_m) {
+  const std::string fault = inertial.mass_kg == 0 ? "without mass" : inertia_fault(inertial.inertia_kgm2);
+  if (fault.empty()) return rolling_mass(source, body, inertial, radius_m);
+  const double mass_kg = inertial.mass_kg > 0 ? inertial.mass_kg : kCasterWheelShare * robot_kg;
+  source.remark(Remark::Kind::assumed,
+                fmt::format("{}: {}; taken as a disc of {:.3g} kg", source.link_text(body.link), fault, mass_kg));
+  return {mass_kg, mass_kg * radius_m * radius_m / 2, mass_kg * radius_m * radius_m / 4};
+}
+
 Caster make_caster(const UrdfSource& source, const std::vector<Body>& bodies, const std::vector<Inertial>& masses,
                    const Support& support) {
   Caster caster = support.caster;
-  if (support.fork >= 0) caster.fork = masses[support.fork];
+  double robot_kg = 0;
+  for (const Inertial& mass : masses) robot_kg += mass.mass_kg;
+  if (support.fork >= 0) {
+    caster.fork = masses[support.fork];
+    complete_fork(source, bodies[support.fork], robot_kg, caster);
+  }
   if (support.wheel >= 0) {
-    const RollingMass mass = rolling_mass(source, bodies[support.wheel], masses[support.wheel], caster.radius_m);
+    const RollingMass mass =
+        complete_wheel(source, bodies[support.wheel], masses[support.wheel], robot_kg, caster.radius_m);
     caster.wheel_mass_kg = mass.mass_kg;
     caster.wheel_spin_inertia_kgm2 = mass.spin_kgm2;
     caster.wheel_transverse_inertia_kgm2 = mass.transverse_kgm2;
@@ -83,12 +129,26 @@ Caster make_caster(const UrdfSource& source, const std::vector<Body>& bodies, co
   return caster;
 }
 
+// What the model leaves out: moving parts that are held still, and hulls of meshes.
+void remark_ignored(const UrdfSource& source, const std::vector<Body>& bodies, const std::vector<bool>& separate) {
+  std::string still;
+  int meshes = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto is_mesh = [](const Shape& shape) { return shape.kind == Shape::Kind::mesh; };
+    meshes += int(std::count_if(bodies[i].shapes.begin(), bodies[i].shapes.end(), is_mesh));
+    if (i > 0 && !separate[i]) still += (still.empty() ? "" : ", ") + bodies[i].joint;
+  }
+  if (!still.empty()) source.remark(Remark::Kind::ignored, "joints that are held at position zero: " + still);
+  if (meshes > 0) source.remark(Remark::Kind::ignored, fmt::format("{} collision meshes that touch no floor", meshes));
+}
+
 }  // namespace
 
-RobotModel load_robot(const std::string& urdf_file, const DriveJoints& joints) {
+RobotModel load_robot(const std::string& urdf_file, const DriveJoints& joints, const WheelSize& size,
+                      std::vector<Remark>* remarks) {
   const UrdfSource source(urdf_file);
   const std::vector<Body> in_root = read_bodies(source);
-  const Drive drive = find_drive(source, in_root, joints);
+  const Drive drive = find_drive(source, in_root, joints, size);
   const std::vector<Body> bodies = in_frame(in_root, drive.root_in_base());
   const std::vector<int> wheel_bodies{drive.wheels[0].body, drive.wheels[1].body};
   const double radius_m = (drive.wheels[0].radius_m + drive.wheels[1].radius_m) / 2;
@@ -113,8 +173,14 @@ RobotModel load_robot(const std::string& urdf_file, const DriveJoints& joints) {
     require_hull_mass(source, bodies[body]);
     model.wheels[side] = make_wheel(source, bodies[body], masses[body], drive.wheels[side]);
     model.wheels[side].centre_m.y() = side == 0 ? half_m : -half_m;
+    const Body& as_given = in_root[body];
+    model.wheels[side].along_joint_m = (drive.wheels[side].centre_m - as_given.origin_m).dot(as_given.axis);
+    model.outside_shapes = model.outside_shapes || !drive.wheels[side].taken_from.empty();
+    model.wheels[side].slide = slide_above(source, bodies, body);
   }
   for (const Support& support : supports) model.casters.push_back(make_caster(source, bodies, masses, support));
+  remark_ignored(source, bodies, separate);
+  if (remarks) *remarks = source.remarks();
   return model;
 }
 

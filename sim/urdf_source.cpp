@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "sim/urdf_simplified.h"
 
 namespace umbsim {
 namespace {
@@ -151,11 +152,19 @@ UrdfSource::UrdfSource(std::string file) : file_(std::move(file)) {
   const std::string text = read_text(file_);
   tinyxml2::XMLDocument document;
   document.Parse(text.data(), text.size());
-  const tinyxml2::XMLElement& robot = *robot_element(document, file_);
+  robot_element(document, file_);
+  tinyxml2::XMLElement& robot = *document.RootElement();
   refuse_xacro(robot, file_);
   link_lines_ = lines_of(robot, "link");
   joint_lines_ = lines_of(robot, "joint");
-  const Parsed parsed = parse(text);
+  springs_ = springs_of(robot);
+  for (const std::string& joint : simplify(robot)) {
+    remark(Remark::Kind::assumed,
+           fmt::format("joint '{}': its <limit> is missing or incomplete, taken as none", joint));
+  }
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  const Parsed parsed = parse(printer.CStr());
   model_ = parsed.model;
   if (!model_ || !parsed.complaint.empty()) fail_with(parsed.complaint);
 }
@@ -170,6 +179,11 @@ void UrdfSource::fail_with(const std::string& complaint) const {
 }
 
 std::string UrdfSource::file_name() const { return std::filesystem::path(file_).filename().string(); }
+
+JointSpring UrdfSource::spring(const std::string& joint) const {
+  const auto found = springs_.find(joint);
+  return found == springs_.end() ? JointSpring{} : found->second;
+}
 
 std::string UrdfSource::link_text(const std::string& link) const {
   const auto found = model_->getLink(link);

@@ -5,8 +5,17 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
+
+#include "sim/robot_model.h"
 
 namespace umbsim {
+
+/// A joint's spring: of <dynamics spring_stiffness>, or of Gazebo's <springStiffness> for that joint.
+struct JointSpring {
+  double stiffness = 0;  ///< N/m of a prismatic joint
+  double reference = 0;  ///< joint position at which it is free
+};
 
 /// A URDF file as read: urdfdom's model and the line of every link and joint, for messages.
 class UrdfSource {
@@ -17,6 +26,13 @@ class UrdfSource {
   const urdf::ModelInterface& model() const { return *model_; }
   /// Without folders.
   std::string file_name() const;
+  const std::string& file() const { return file_; }
+  /// Stiffness 0 where the file gives none.
+  JointSpring spring(const std::string& joint) const;
+
+  /// What was found and taken, for those who want to read it; the source only collects it.
+  void remark(Remark::Kind kind, const std::string& text) const { remarks_.push_back({kind, text}); }
+  const std::vector<Remark>& remarks() const { return remarks_; }
 
   /// "link 'caster' (joint 'caster_joint')"; without the bracket for the root.
   std::string link_text(const std::string& link) const;
@@ -36,6 +52,8 @@ class UrdfSource {
   std::shared_ptr<const urdf::ModelInterface> model_;
   std::map<std::string, int> link_lines_;
   std::map<std::string, int> joint_lines_;
+  std::map<std::string, JointSpring> springs_;
+  mutable std::vector<Remark> remarks_;
 };
 
 }  // namespace umbsim

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/robot_model.h"
 #include "sim/urdf_bodies.h"
 #include "sim/urdf_source.h"
 
@@ -23,15 +24,17 @@ struct RollingWheel {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< on the joint axis
   double radius_m = 0;
   double width_m = 0;  ///< 0 for a sphere
+  std::string taken_from{};  ///< what stands in the place of a collision shape; empty: nothing
   double lowest_m() const { return centre_m.z() - radius_m; }
 };
 
-/// The collision cylinder or sphere of `bodies[body]` as a wheel. If it has none that can roll about the joint,
+/// `bodies[body]` as a wheel: of `size` where it has a radius, else its collision cylinder or sphere, else what bounds
+/// the mesh of its collision about the joint axis, else the same of its visual. If nothing can roll about the joint,
 /// `fault` says why and what to do.
 struct WheelShape {
   RollingWheel wheel;
   std::string fault;
 };
-WheelShape wheel_shape(const UrdfSource& source, const std::vector<Body>& bodies, int body);
+WheelShape wheel_shape(const UrdfSource& source, const std::vector<Body>& bodies, int body, const WheelSize& size = {});
 
 }  // namespace umbsim

@@ -15,6 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kSettle_s = 0.2;
+constexpr double kSettleOnSprings_s = 1;
 constexpr double kNearCable_m = 0.02;
 constexpr double kFastestCommand_radps = 1e6;
 
@@ -32,6 +33,9 @@ std::vector<Support> supports_of(const RobotModel& robot, const MultiBody& body)
       supports.push_back({-1, c.centre_m, c.radius_m, false, -1, 0, c.friction, "caster " + c.link});
     }
   }
+  for (int i = 0; i < int(supports.size()); ++i) {
+    supports[i].spring = i < 2 ? robot.wheels[i].suspension : robot.casters[i - 2].suspension;
+  }
   return supports;
 }
 
@@ -41,6 +45,7 @@ World::State::State(const RobotModel& r, const Drivetrain& d, const Floor& f, co
                     const std::vector<Push>& p)
     : robot(r), drivetrain(d), floor(f), options(o), pushes(p), body(r), supports(supports_of(r, body)) {
   if (supports.size() > 8) throw InputError(robot.urdf + ": more than six casters are not supported");
+  for (const Support& s : supports) sprung = sprung || s.spring.sprung();
   soften();
 }
 
@@ -67,9 +72,9 @@ RollingShape World::State::shape(const Support& s) const {
   // The height follows the load at rest only: a feedback would outrun the spring of the contact.
   const double squash_m = s.wheel < 0 ? 0 : robot.wheels[s.wheel].compliance_mpn * rest_load_n[s.wheel];
   const double radius_m = s.radius_m - squash_m + s.sink_m;
-  if (s.joint < 0) return {body.position() + body.rotation() * s.centre_m, Vector3d::Zero(), radius_m};
+  if (s.joint < 0) return {body.position() + body.rotation() * (s.centre_m + shift(s)), Vector3d::Zero(), radius_m};
   const Joint at = body.current(s.joint);
-  return {body.position() + body.rotation() * rim_centre(s, at),
+  return {body.position() + body.rotation() * (rim_centre(s, at) + shift(s)),
           s.disc ? Vector3d(body.rotation() * at.axis) : Vector3d(Vector3d::Zero()), radius_m};
 }
 
@@ -113,20 +118,22 @@ void World::place(const Pose2& X_WB) {
   s.command_radps = s.last_command_radps = s.set_point_radps = {};
   s.radius_factor = {1, 1};
   s.pull = {};
-  s.time_s = -kSettle_s;
+  const double settle_s = s.sprung ? kSettleOnSprings_s : kSettle_s;
+  s.time_s = -settle_s;
   for (int i = 0; i < 2; ++i) s.shaft_rad[i] = s.body.joint_angle(i);
   s.rest_load_n = {};
-  advance(kSettle_s);
+  advance(settle_s);
   if (s.robot.wheels[0].compliance_mpn > 0 || s.robot.wheels[1].compliance_mpn > 0) {
     s.rest_load_n = s.loads.wheel_n;  // tyres that give: once more, at the height to which they sink
     s.body.set_velocity(DofVector::Zero(s.body.dofs()));
     s.place_on_floor(X_WB);
-    advance(kSettle_s);
+    advance(settle_s);
   }
   s.check_loads();
   for (int i = 0; i < 2; ++i) s.zero_angle_rad[i] = s.body.joint_angle(i);
   s.time_s = 0;
   s.cost = {};
+  for (int i = 0; i < 2; ++i) s.strain[i] = {s.loads.wheel_n[i]};
 }
 
 void World::command(double left_radps, double right_radps) {
@@ -178,6 +185,7 @@ double World::wheel_speed(int wheel) const { return state_->body.velocity()[6 + 
 Vector3d World::wheel_centre(int wheel) const { return state_->shape(state_->supports[wheel]).centre_m; }
 Vector3d World::up() const { return state_->body.rotation().col(2); }
 const SupportLoads& World::loads() const { return state_->loads; }
+double World::spring_up_m(int support) const { return state_->supports[support].up_m; }
 const PhysicsCost& World::cost() const { return state_->cost; }
 double World::energy() const { return state_->body.energy(); }
 

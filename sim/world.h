@@ -46,6 +46,16 @@ struct SupportLoads {
   std::array<double, 8> caster_n{};
 };
 
+/// How a wheel was loaded since World::place.
+struct WheelStrain {
+  double least_n = 0;
+  double mean_n = 0;
+  double unloaded_s = 0;          ///< in all
+  double longest_unloaded_s = 0;  ///< at one time
+  double longest_from_s = 0;      ///< from when on
+  double slid_s = 0;              ///< at its friction limit
+};
+
 struct Snapshot;
 
 /// A robot on a floor: Bullet's articulated-body dynamics (btMultiBody), contacts of ideal round shapes, and a
@@ -58,7 +68,8 @@ class World {
   World(World&&) noexcept;
 
   /// Sets the robot at rest on the floor with the axle's middle at X_WB, and lets it settle with the motors
-  /// braked. Throws InputError if a wheel or caster then carries no load: such a robot does not stand.
+  /// braked. Throws InputError if it then does not stand: a rigid wheel or one of three supports carries no load, or
+  /// what does lies on one line.
   void place(const Pose2& X_WB);
 
   /// Wheel speeds at the end of the next `advance`, forward positive. Throws InputError beyond 1e6 rad/s either way.
@@ -99,6 +110,9 @@ class World {
   /// Roll and pitch, for tests and traces.
   Eigen::Vector3d up() const;
   const SupportLoads& loads() const;
+  WheelStrain strain(int wheel) const;
+  /// How far the suspension has moved a support up into the robot: left and right wheel, then casters.
+  double spring_up_m(int support) const;
   /// How it stands as it is now.
   Standing standing() const;
   const PhysicsCost& cost() const;

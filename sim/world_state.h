@@ -24,6 +24,11 @@ struct Support {
   double sink_m = 0;
   double stiffness_npm = 0;
   double damping_nspm = 0;
+  // Between it and the base.
+  Suspension spring{};
+  double up_m = 0;    // its deflection
+  double up_mps = 0;  // in the last step
+  int stop = 0;       // at which it stands: 1 the upper, -1 the lower, 0 none
 };
 
 /// How a rolling tyre slips before it slides.
@@ -34,7 +39,7 @@ struct TyreSlip {
 };
 
 /// Everything that a world holds. world.cpp: the interface; step.cpp: one time step; contact_rows.cpp: what touches;
-/// placing.cpp: how the robot is set down.
+/// placing.cpp: how the robot is set down; springs.cpp: what carries it; strain.cpp: how its wheels were loaded.
 struct World::State {
   RobotModel robot;
   Drivetrain drivetrain;
@@ -53,6 +58,10 @@ struct World::State {
   std::array<double, 2> shaft_rad{};         // motor side of the backlash
   std::array<double, 2> radius_factor{1, 1};  // of rolling, not of the shape
   std::array<double, 2> rest_load_n{};       // that squashes a tyre at rest
+  bool sprung = false;                       // any support
+  struct {
+    double least_n = 0, sum_ns = 0, unloaded_s = 0, since_s = 0, longest_s = 0, longest_from_s = 0, slid_s = 0;
+  } strain[2];
   double time_s = -1;                        // since place; pushes act from 0 on
   double heading_rad = 0;
   double stood_s = 0;                        // when the robot stood last, and how it was turned
@@ -97,7 +106,14 @@ struct World::State {
   void add_pull(double step_s, DofVector& u);
   template <int N>
   void assemble(const double* M_inverse, int dofs, int stride);
-  void solve();
+  void solve(double step_s);
+  void solve_on_springs(double step_s);
+  void add_springs(double step_s);
+  double spring_speed(const Support& s, double force_n, double step_s) const;
+  bool change_stops(double step_s);
+  void move_springs(double step_s);
+  Eigen::Vector3d shift(const Support& s) const { return {0, 0, s.up_m}; }
+  void note_strain(double step_s);
   void count(const SolveReport& report);
   void note_loads(double step_s);
 

@@ -60,12 +60,18 @@ function footerText(data) {
   return escapeHtml(parts.join(" · "));
 }
 
+function warningsHtml(data) {
+  const warnings = (data.summary.warnings || []).map((text) => `<li>${escapeHtml(text)}</li>`);
+  return warnings.length ? `<ul class="notice warnings">${warnings.join("")}</ul>` : "";
+}
+
 function buildPage(data) {
   document.getElementById("report").innerHTML = `
     <header>
       <h1>${escapeHtml(data.title || "UMBmark report")}</h1>
       ${headline(data) ? `<p class="headline">${headline(data)}</p>` : ""}
       ${data.description ? `<p class="muted">${escapeHtml(data.description)}</p>` : ""}
+      ${warningsHtml(data)}
       ${tilesHtml(data)}
     </header>
     <section id="scatter" hidden></section>
