@@ -4,7 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <set>
+#include <tuple>
 
 #include "calibration/compare/held_out.h"
 #include "calibration/methods/squares.h"
@@ -134,7 +134,7 @@ Comparison compare(const Task& task, const std::vector<const Method*>& chosen) {
   const Folds folds = folds_of(runs);
   c.held_out = folds.said;
   c.folds = int(folds.all.size());
-  leave_out(runs, folds, task.nominal, c.results);
+  leave_out(folds, task.nominal, c.results);
   std::tie(c.winner, c.why) = choose(c.results, folds);
   if (chosen.size() == 1) {
     c.winner = 1;

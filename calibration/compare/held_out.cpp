@@ -19,20 +19,63 @@ std::string both_ways(const TrainingRun& r) {
 }
 
 // What the method says without the runs of a fold; none where it has no answer.
-std::optional<LogFactors> without(const Fold& fold, const Runs& runs, const MethodResult& result,
-                                  const OdometryParameters& nominal) {
+std::optional<LogFactors> without(const Fold& fold, const MethodResult& result, const OdometryParameters& nominal) {
   if (!result.method || !result.fit) return std::nullopt;
-  if (fold.left_out.size() == 1 && !result.fit->left_out.empty() && result.fit->left_out[fold.left_out[0]])
-    return result.fit->left_out[fold.left_out[0]];
-  Runs others;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (std::find(fold.left_out.begin(), fold.left_out.end(), i) == fold.left_out.end()) others.push_back(runs[i]);
-  }
+  const auto& known = result.fit->left_out;
+  if (fold.run && !known.empty() && known[*fold.run]) return known[*fold.run];
   try {
-    return result.method->fit(others, nominal).factors;
+    return result.method->fit(fold.others, nominal).factors;
   } catch (const NotApplicable&) {
     return std::nullopt;
   }
+}
+
+Fold fold_without(const Runs& runs, const std::vector<std::size_t>& left_out) {
+  Fold fold;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const bool out = std::find(left_out.begin(), left_out.end(), i) != left_out.end();
+    (out ? fold.left_out : fold.others).push_back(runs[i]);
+  }
+  if (left_out.size() == 1) fold.run = left_out[0];
+  return fold;
+}
+
+bool can_be_halved(const Runs& runs) {
+  std::map<std::string, int> alike;
+  for (const TrainingRun& r : runs) {
+    if (!r.tracked() || ++alike[r.condition] > 1) return false;
+  }
+  return true;
+}
+
+// One half of a run, by time. Half a square is no square.
+Recording half(const TrainingRun& r, bool second) {
+  Recording recording = *r.recording;
+  RecordedRun run = *r.run;
+  const double middle_s = (run.truth.front().time_s + run.truth.back().time_s) / 2;
+  std::erase_if(run.encoders, [&](const EncoderSample& s) { return (s.time_s >= middle_s) != second; });
+  std::erase_if(run.truth, [&](const TruthSample& t) { return (t.time_s >= middle_s) != second; });
+  if (recording.path.shape == "square") recording.path.shape = "free";
+  recording.runs = {std::move(run)};
+  return recording;
+}
+
+Folds halves_of(const Runs& runs) {
+  Folds folds;
+  folds.said = "no run was repeated: each half of all runs left out once";
+  for (const bool second : {false, true}) {
+    for (const TrainingRun& r : runs) folds.halves.push_back(half(r, second));
+  }
+  Runs first, second;
+  for (std::size_t i = 0; i < folds.halves.size(); ++i) {
+    TrainingRun r = runs[i % runs.size()];
+    r.recording = &folds.halves[i];
+    r.run = &folds.halves[i].runs[0];
+    if (r.run->encoders.size() < 10 || r.run->truth.size() < 10) return {};
+    (i < runs.size() ? first : second).push_back(r);
+  }
+  folds.all = {{first, second, {}}, {second, first, {}}};
+  return folds;
 }
 
 struct Score {
@@ -43,30 +86,31 @@ struct Score {
 }  // namespace
 
 Folds folds_of(const Runs& runs) {
-  std::map<std::string, Fold> by_condition;
-  for (std::size_t i = 0; i < runs.size(); ++i) by_condition[both_ways(runs[i])].left_out.push_back(i);
+  std::map<std::string, std::vector<std::size_t>> by_condition;
+  for (std::size_t i = 0; i < runs.size(); ++i) by_condition[both_ways(runs[i])].push_back(i);
   Folds folds;
   if (by_condition.size() > 1) {
-    for (auto& [condition, fold] : by_condition) folds.all.push_back(std::move(fold));
+    for (const auto& [condition, members] : by_condition) folds.all.push_back(fold_without(runs, members));
     folds.said = fmt::format("{} conditions, each left out once", by_condition.size());
     return folds;
   }
-  for (std::size_t i = 0; i < runs.size(); ++i) folds.all.push_back({{i}});
+  if (can_be_halved(runs)) folds = halves_of(runs);
+  if (!folds.all.empty()) return folds;
+  for (std::size_t i = 0; i < runs.size(); ++i) folds.all.push_back(fold_without(runs, {i}));
   folds.said = fmt::format("one condition only: each of {} runs left out once", runs.size());
   return folds;
 }
 
-void leave_out(const Runs& runs, const Folds& folds, const OdometryParameters& nominal,
-               std::vector<MethodResult>& results) {
+void leave_out(const Folds& folds, const OdometryParameters& nominal, std::vector<MethodResult>& results) {
   const std::size_t n = folds.all.size();
   std::vector<Score> scores(results.size() * n);
   tbb::parallel_for(std::size_t(0), scores.size(), [&](std::size_t i) {
     const Fold& fold = folds.all[i % n];
-    const auto factors = without(fold, runs, results[i / n], nominal);
+    const auto factors = without(fold, results[i / n], nominal);
     scores[i].answered = factors.has_value();
     const OdometryParameters odometry = factors ? scaled(nominal, *factors) : nominal;
-    for (const std::size_t r : fold.left_out)
-      scores[i].sum_mm += run_error(runs[r], odometry).final_mm / double(fold.left_out.size());
+    for (const TrainingRun& r : fold.left_out)
+      scores[i].sum_mm += run_error(r, odometry).final_mm / double(fold.left_out.size());
   });
   for (std::size_t i = 0; i < scores.size(); ++i) {
     results[i / n].held_out_mm += scores[i].sum_mm / double(n);

@@ -36,12 +36,17 @@ void expect_same_ways(const Recording& a, const Recording& b) {
 }
 
 TEST(Unwrap, SixteenBitsWithAndWithoutSign) {
-  const Recording good = fine_squares(20000);  // 8 m and turns: some 350 000 counts
-  for (Recording wrapped : {as_counted_by<std::int16_t>(good, 0), as_counted_by<std::uint16_t>(good, 123)}) {
-    const std::vector<std::string> said = unwrap_counters(wrapped);
-    expect_same_ways(wrapped, good);
+  // cw the left wheel rolls 8 m and once round the other, 9.07 m or 384 860 counts: past 32768 + 65536 n six times, and
+  // from 123 on past 65536 n five times.
+  const Recording good = fine_squares(20000);
+  for (auto& [wrapped, times] :
+       {std::pair{as_counted_by<std::int16_t>(good, 0), "left_ticks at 16 bits, 6 times"},
+        std::pair{as_counted_by<std::uint16_t>(good, 123), "left_ticks at 16 bits, 5 times"}}) {
+    Recording unwrapped = wrapped;
+    const std::vector<std::string> said = unwrap_counters(unwrapped);
+    expect_same_ways(unwrapped, good);
     ASSERT_EQ(said.size(), 2u);
-    EXPECT_NE(said[0].find("left_ticks at 16 bits, 5 times"), std::string::npos) << said[0];
+    EXPECT_NE(said[0].find(times), std::string::npos) << said[0];
   }
 }
 
