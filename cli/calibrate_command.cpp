@@ -156,8 +156,11 @@ void add_calibrate_command(CLI::App& app) {
   command->add_option("recording", a->recordings, "Folders of recordings of one robot (real or simulated)")->required();
   command->add_option("--test", a->tests, "Recording to be predicted only (repeatable)")->allow_extra_args(false);
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<recording>-calibration");
-  command->add_option("--method", a->method, "Whose numbers calibration.yaml gets; all: the winner's")
-      ->check(CLI::IsMember(method_names()))
+  CLI::Validator known = CLI::IsMember(method_names());
+  command
+      ->add_option("--method", a->method,
+                   fmt::format("Whose numbers calibration.yaml gets: {}", fmt::join(method_names(), ", ")))
+      ->check(known.description(""))
       ->capture_default_str();
   command->add_flag("--force", a->force, "Replace a finished result");
   add_threads_option(*command, a->jobs);

@@ -10,8 +10,8 @@
 namespace umbsim::calibration {
 namespace {
 
-constexpr int kMostPasses = 50;
-constexpr double kDone = 1e-12;           // of the factors, from pass to pass
+constexpr int kMostPasses = 200;          // a pass of errors of 5 % removes half of them only
+constexpr double kDone = 1e-10;           // of the factors, from pass to pass
 constexpr double kLargeAngle_rad = 0.02;  // of alpha or beta: the formulas' bias is some 1 % of it, or more
 
 struct Squares {
