@@ -110,13 +110,15 @@ Fit fit_endpoint(const Runs& runs, const OdometryParameters& nominal) {
 Fit fit_iterated_endpoint(const Runs& runs, const OdometryParameters& nominal) {
   Fit fit;
   for (int pass = 0;; ++pass) {
-    const LogFactors step = correction(runs, scaled(nominal, fit.factors), CalibrationMethod::endpoint);
+    LogFactors step = correction(runs, scaled(nominal, fit.factors), CalibrationMethod::endpoint);
+    // Corrections of several recordings that differ keep the arithmetic mean each, and shrink the geometric one for
+    // ever.
+    step.head<2>().array() -= step.head<2>().mean();
     fit.factors += step;
     if (step.norm() < kDone) break;
     if (pass == kMostPasses || !fit.factors.allFinite())
       throw NotApplicable("the passes do not come to rest: the errors are too large for its formulas");
   }
-  // The passes keep the arithmetic mean of the radii, as UMBmark does.
   fit.condition = 1;
   return with_warnings(std::move(fit), runs, nominal);
 }

@@ -163,6 +163,15 @@ TEST(Methods, RecordingsAreFittedTogether) {
   }
 }
 
+// Recordings that disagree keep the mean radius, so that the passes come to rest.
+TEST(Methods, IteratedComesToRestOnRecordingsThatDiffer) {
+  const std::vector<Recording> both{tracked_squares(robot(1.004, 1.01, 1), nominal_odometry(), 1),
+                                    tracked_squares(robot(0.998, 1.02, 1), nominal_odometry(), 1)};
+  const Fit f = fit("iterated", both);
+  EXPECT_NEAR(f.factors[0] + f.factors[1], 0, 1e-9);
+  EXPECT_NEAR(figures(f, nominal_odometry()).e_d.value, 1.001, 1e-4);
+}
+
 // Kelly's second part: the wheels' random errors come back.
 TEST(Methods, KellyFindsTheWheelsNoise) {
   TestTracker tracker;
