@@ -1,13 +1,20 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <memory>
 
 #include "calibration/calibrate.h"
+#include "calibration/compare/compare.h"
 #include "calibration/intake/intake.h"
+#include "calibration/methods/squares.h"
+#include "cli/calibration_json.h"
+#include "cli/calibration_table.h"
 #include "cli/commands.h"
 #include "cli/help.h"
+#include "cli/jobs.h"
 #include "cli/tables.h"
+#include "core/error.h"
 #include "core/text_file.h"
 #include "core/wrapped_text.h"
 #include "experiment/result_folder.h"
@@ -16,61 +23,148 @@
 namespace umbsim {
 namespace {
 
+using calibration::Comparison;
+using calibration::Method;
+using calibration::Task;
+
 struct CalibrateArguments {
-  std::string recording;
+  std::vector<std::string> recordings;
+  std::vector<std::string> tests;
   std::string out;
-  std::string method = "heading";
+  std::string method = "all";
   bool force = false;
+  int jobs = 0;
 };
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names{"all"};
+  for (const Method& m : calibration::methods()) names.emplace_back(m.name);
+  return names;
+}
+
+// Folders of one name are told apart by their order.
+void take_in(const std::vector<std::string>& folders, std::vector<Recording>& recordings,
+             std::vector<std::string>& names, std::vector<std::string>& limits, bool several) {
+  for (const std::string& folder : folders) {
+    intake::Intake taken = intake::take_in(folder);
+    std::string name = folder_name(folder);
+    const std::string plain = name;
+    for (int n = 2; std::find(names.begin(), names.end(), name) != names.end(); ++n)
+      name = fmt::format("{} ({})", plain, n);
+    for (const std::string& limit : taken.limits) limits.push_back(several ? name + ": " + limit : limit);
+    names.push_back(name);
+    recordings.push_back(std::move(taken.recording));
+  }
+}
+
+Task read_task(const CalibrateArguments& a, std::vector<std::string>& limits) {
+  Task task;
+  const bool several = a.recordings.size() + a.tests.size() > 1;
+  take_in(a.recordings, task.train, task.train_names, limits, several);
+  take_in(a.tests, task.test, task.test_names, limits, several);
+  task.nominal = calibration::nominal_odometry(task.train.front().robot);
+  return task;
+}
+
+std::vector<const Method*> chosen(const std::string& name) {
+  std::vector<const Method*> all;
+  for (const Method& m : calibration::methods()) {
+    if (name == "all" || name == m.name) all.push_back(&m);
+  }
+  return all;
+}
+
+void check_answer(const Comparison& c, const std::string& recording) {
+  std::string reasons;
+  for (const calibration::MethodResult& r : c.results) {
+    if (r.fit) return;
+    if (!r.why_not.empty()) reasons += fmt::format("\n  {}: {}", r.name, r.why_not);
+  }
+  throw InputError(fmt::format("{}: no method has an answer:{}", recording, reasons));
+}
+
+// Of the first recording of squares that was driven both ways.
+std::optional<std::pair<Umbmark, const Recording*>> first_squares(const Task& task) {
+  const calibration::Runs runs = calibration::training_runs(task.train, task.train_names);
+  for (std::size_t i = 0; i < task.train.size(); ++i) {
+    if (auto u = calibration::squares_of(runs, i, task.nominal)) return std::pair{*u, &task.train[i]};
+  }
+  return std::nullopt;
+}
+
+std::optional<CalibrationMethod> as_form(const std::string& method) {
+  if (method == "endpoint") return CalibrationMethod::endpoint;
+  if (method == "heading") return CalibrationMethod::heading;
+  return std::nullopt;
+}
+
+Json odometry_json(const OdometryParameters& o) {
+  return {{"left_radius_m", o.left_radius_m}, {"right_radius_m", o.right_radius_m}, {"wheelbase_m", o.wheelbase_m}};
+}
 
 void calibrate(const CalibrateArguments& a) {
   namespace fs = std::filesystem;
-  const auto [recording, limits] = intake::take_in(a.recording);
-  const OdometryParameters nominal{recording.robot.wheel_radius_m, recording.robot.wheel_radius_m,
-                                   recording.robot.wheelbase_m, recording.robot.ticks_per_revolution};
-  const Umbmark u = umbmark(recording, nominal);
-  const auto method = a.method == "endpoint" ? CalibrationMethod::endpoint : CalibrationMethod::heading;
-  const OdometryParameters calibrated = corrected(nominal, estimate(u, method));
-  const std::string base = folder_name(a.recording);
+  const ThreadLimit limit(a.jobs);
+  std::vector<std::string> limits;
+  const Task task = read_task(a, limits);
+  const Comparison c = calibration::compare(task, chosen(a.method));
+  check_answer(c, a.recordings.front());
+  const std::string& winner = c.results[c.winner].name;
+  const OdometryParameters& calibrated = c.results[c.winner].odometry;
+  const std::string base = task.train_names.front();
   ResultFolder out(a.out, base + "-calibration", a.force);
 
-  Json json{{"format", "umbsim-calibration/1"},
-            {"method", a.method},
-            {"umbmark", umbmark_json(u)},
-            {"calibration", calibration_json(u, method)},
-            {"odometry",
-             {{"left_radius_m", calibrated.left_radius_m},
-              {"right_radius_m", calibrated.right_radius_m},
-              {"wheelbase_m", calibrated.wheelbase_m}}},
-            {"limits", limits}};
+  const auto squares = first_squares(task);
+  Json json{{"format", "umbsim-calibration/1"}, {"method", winner}};
+  if (squares) {
+    json["umbmark"] = umbmark_json(squares->first);
+    json["calibration"] = calibration_json(squares->first, as_form(winner));
+    json["calibration"]["applied"] = winner;
+  }
+  json["odometry"] = odometry_json(calibrated);
+  json["limits"] = limits;
+  json["comparison"] = comparison_json(c, task);
   out.write([&](const fs::path& into) {
-    const std::string comment = fmt::format("Odometry calibrated on '{}' ({} form)", base, a.method);
+    const std::string comment =
+        fmt::format("Odometry calibrated on '{}' ({})", fmt::join(task.train_names, "', '"), winner);
     write_text_file(into / "calibration.yaml", calibration_yaml(calibrated, comment));
     write_text_file(into / "calibration.json", json.dump(2) + "\n");
-    write_text_file(into / "provenance.json", provenance_json(a.recording, 0).dump(2) + "\n");
+    write_text_file(into / "provenance.json", provenance_json(a.recordings.front(), 0).dump(2) + "\n");
   });
-  fmt::print("{}{}", wrapped(fmt::format("{}: {}", base, recording.title)), umbmark_table(u, method));
-  if (const auto extended = extended_umbmark(recording, nominal, u)) fmt::print("{}", extended_table(*extended));
-  for (const std::string& limit : limits) fmt::print("{}", wrapped("Limit: " + limit));
-  fmt::print("{}Result in {}: calibration.yaml, calibration.json\n",
-             wrapped(fmt::format(
-                 "Calibrated odometry ({} form): left radius {:.6f} m, right radius {:.6f} m, wheelbase {:.6f} m",
-                 a.method, calibrated.left_radius_m, calibrated.right_radius_m, calibrated.wheelbase_m)),
-             out.said());
+  for (std::size_t i = 0; i < task.train.size(); ++i)
+    fmt::print("{}", wrapped(fmt::format("{}: {}", task.train_names[i], task.train[i].title)));
+  if (squares) {
+    fmt::print("{}", umbmark_table(squares->first, as_form(winner)));
+    if (const auto extended = extended_umbmark(*squares->second, task.nominal, squares->first))
+      fmt::print("{}", extended_table(*extended));
+  }
+  fmt::print("{}", comparison_table(c, task));
+  for (const std::string& said : limits) fmt::print("{}", wrapped("Limit: " + said));
+  fmt::print(
+      "{}Result in {}: calibration.yaml, calibration.json\n",
+      wrapped(fmt::format("Calibrated odometry ({}): left radius {:.6f} m, right radius {:.6f} m, wheelbase {:.6f} m",
+                          winner, calibrated.left_radius_m, calibrated.right_radius_m, calibrated.wheelbase_m)),
+      out.said());
 }
 
 }  // namespace
 
 void add_calibrate_command(CLI::App& app) {
   const auto a = std::make_shared<CalibrateArguments>();
-  CLI::App* command = app.add_subcommand("calibrate", "Calibrate the odometry on a recording of UMBmark squares");
-  command->add_option("recording", a->recording, "Folder of the recording (real or simulated)")->required();
+  CLI::App* command = app.add_subcommand(
+      "calibrate", "Calibrate the odometry on recordings, by all methods, and name the one to trust");
+  command->add_option("recording", a->recordings, "Folders of recordings of one robot (real or simulated)")->required();
+  command->add_option("--test", a->tests, "Recording to be predicted only (repeatable)")->allow_extra_args(false);
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<recording>-calibration");
-  command->add_option("--method", a->method, "Which form's corrections calibration.yaml gets")
-      ->check(CLI::IsMember({"heading", "endpoint"}))
+  CLI::Validator known = CLI::IsMember(method_names());
+  command
+      ->add_option("--method", a->method,
+                   fmt::format("Whose numbers calibration.yaml gets: {}", fmt::join(method_names(), ", ")))
+      ->check(known.description(""))
       ->capture_default_str();
   command->add_flag("--force", a->force, "Replace a finished result");
-  add_example(command, "umbsim calibrate results/umbmark");
+  add_threads_option(*command, a->jobs);
+  add_example(command, "umbsim calibrate results/umbmark\n  umbsim calibrate squares circles --test free");
   command->callback([a] { calibrate(*a); });
 }
 

@@ -7,6 +7,7 @@
 
 #include "calibration/calibrate.h"
 #include "calibration/intake/intake.h"
+#include "calibration/prediction.h"
 #include "cli/commands.h"
 #include "cli/help.h"
 #include "cli/jobs.h"
@@ -16,7 +17,6 @@
 #include "experiment/replay.h"
 #include "experiment/result_folder.h"
 #include "experiment/result_json.h"
-#include "gap/prediction.h"
 
 namespace umbsim {
 namespace {
@@ -32,8 +32,8 @@ struct PredictArguments {
   int jobs = 0;
 };
 
-gap::Prediction replayed(const std::string& name, const Replay& replay, const std::vector<Effect>& effects) {
-  gap::Prediction p{name, std::vector<std::vector<Pose2>>(replay.recording().runs.size())};
+calibration::Prediction replayed(const std::string& name, const Replay& replay, const std::vector<Effect>& effects) {
+  calibration::Prediction p{name, std::vector<std::vector<Pose2>>(replay.recording().runs.size())};
   const double roughness = replay.scrubs(effects) ? replay.scenario().noise.wheel_noise_m_per_sqrt_m : 0;
   tbb::parallel_for(std::size_t(0), p.tracks.size(),
                     [&](std::size_t r) { p.tracks[r] = replay.poses(r, effects, roughness); });
@@ -41,32 +41,32 @@ gap::Prediction replayed(const std::string& name, const Replay& replay, const st
 }
 
 // The simulator before and after; where squares are given, what odometry calibrated on them would have said.
-std::vector<gap::Prediction> predictions(const Replay& replay, const std::vector<Effect>& effects,
+std::vector<calibration::Prediction> predictions(const Replay& replay, const std::vector<Effect>& effects,
                                          const std::string& squares) {
   const Recording& recording = replay.recording();
   const RecordedRobot& robot = recording.robot;
   const OdometryParameters nominal{robot.wheel_radius_m, robot.wheel_radius_m, robot.wheelbase_m,
                                    robot.ticks_per_revolution};
-  std::vector<gap::Prediction> all{replayed("before", replay, {}), replayed("after", replay, effects),
-                                   gap::reckoned("odometry", recording, nominal)};
+  std::vector<calibration::Prediction> all{replayed("before", replay, {}), replayed("after", replay, effects),
+                                   calibration::reckoned("odometry", recording, nominal)};
   if (squares.empty()) return all;
   const Umbmark u = umbmark(intake::take_in(squares).recording, nominal);
-  all.push_back(gap::reckoned("umbmark", recording, corrected(nominal, u.endpoint)));
-  all.push_back(gap::reckoned("heading", recording, corrected(nominal, u.heading)));
+  all.push_back(calibration::reckoned("umbmark", recording, corrected(nominal, u.endpoint)));
+  all.push_back(calibration::reckoned("heading", recording, corrected(nominal, u.heading)));
   return all;
 }
 
 struct Scores {
   std::string name;
-  std::vector<gap::RunError> runs;
-  gap::RunError mean;
+  std::vector<calibration::RunError> runs;
+  calibration::RunError mean;
 };
 
-Scores scores(const Recording& recording, const gap::Prediction& p) {
+Scores scores(const Recording& recording, const calibration::Prediction& p) {
   Scores s{p.name, {}, {}};
   const double n = double(p.tracks.size());
   for (std::size_t r = 0; r < p.tracks.size(); ++r) {
-    s.runs.push_back(gap::prediction_error(recording.runs[r], p.tracks[r]));
+    s.runs.push_back(calibration::prediction_error(recording.runs[r], p.tracks[r]));
     s.mean.final_mm += s.runs.back().final_mm / n;
     s.mean.along_mm += s.runs.back().along_mm / n;
     s.mean.raw_final_mm += s.runs.back().raw_final_mm / n;
@@ -75,7 +75,7 @@ Scores scores(const Recording& recording, const gap::Prediction& p) {
   return s;
 }
 
-Json error_json(const gap::RunError& e) {
+Json error_json(const calibration::RunError& e) {
   return {
       {"final_mm", e.final_mm}, {"along_mm", e.along_mm}, {"raw_final_mm", e.raw_final_mm}, {"frame_deg", e.frame_deg}};
 }
@@ -91,7 +91,7 @@ Json prediction_json(const Recording& recording, const std::vector<Scores>& all)
 }
 
 std::string table(const Recording& recording, const std::vector<Scores>& all, const std::string& title,
-                  double gap::RunError::*error) {
+                  double calibration::RunError::*error) {
   constexpr std::size_t kLabel = 24;
   std::string text = fitted(title, kLabel);
   for (const Scores& s : all) text += fmt::format("{:>11}", s.name);
@@ -102,9 +102,9 @@ std::string table(const Recording& recording, const std::vector<Scores>& all, co
     text += "\n";
   };
   for (std::size_t r = 0; r < recording.runs.size(); ++r) {
-    row(recording.runs[r].id, [r](const Scores& s) -> const gap::RunError& { return s.runs[r]; });
+    row(recording.runs[r].id, [r](const Scores& s) -> const calibration::RunError& { return s.runs[r]; });
   }
-  row("mean", [](const Scores& s) -> const gap::RunError& { return s.mean; });
+  row("mean", [](const Scores& s) -> const calibration::RunError& { return s.mean; });
   return text;
 }
 
@@ -118,7 +118,7 @@ void predict(const PredictArguments& a) {
   without.effects.clear();
   const Replay replay(without, recording, false);
   std::vector<Scores> all;
-  for (const gap::Prediction& p : predictions(replay, scenario.effects, a.squares)) all.push_back(scores(recording, p));
+  for (const calibration::Prediction& p : predictions(replay, scenario.effects, a.squares)) all.push_back(scores(recording, p));
   out.write([&](const fs::path& into) {
     write_text_file(into / "prediction.json", prediction_json(recording, all).dump(2) + "\n");
     write_text_file(into / "provenance.json", provenance_json(a.recording, 0).dump(2) + "\n");
@@ -129,8 +129,8 @@ void predict(const PredictArguments& a) {
              wrapped(fmt::format("{}: {}", base, recording.title)),
              wrapped(fmt::format("Effects of {}: {}", a.scenario,
                                  effects.empty() ? "none" : fmt::format("{}", fmt::join(effects, ", ")))),
-             table(recording, all, "start and frame fitted", &gap::RunError::final_mm),
-             table(recording, all, "recorded start as exact", &gap::RunError::raw_final_mm), out.said());
+             table(recording, all, "start and frame fitted", &calibration::RunError::final_mm),
+             table(recording, all, "recorded start as exact", &calibration::RunError::raw_final_mm), out.said());
 }
 
 }  // namespace

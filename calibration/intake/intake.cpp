@@ -12,6 +12,7 @@
 #include "calibration/intake/refusal.h"
 #include "calibration/intake/samples.h"
 #include "calibration/intake/units.h"
+#include "calibration/intake/unwrap.h"
 
 namespace umbsim::intake {
 namespace {
@@ -137,7 +138,8 @@ std::vector<std::string> check_recording(const Recording& recording, const std::
 
 Intake take_in(const std::string& directory) {
   Recording recording = read_recording(directory);
-  std::vector<std::string> limits = check_recording(recording, directory);
+  std::vector<std::string> limits = unwrap_counters(recording);
+  for (std::string& limit : check_recording(recording, directory)) limits.push_back(std::move(limit));
   return {std::move(recording), std::move(limits)};
 }
 

@@ -107,6 +107,20 @@ INSTANTIATE_TEST_SUITE_P(Optiodom, RealRecording,
                                                    104.4, 0.99910, 1.00778}),
                          [](const auto& param_info) { return "Square" + std::to_string(param_info.index + 1); });
 
+TEST(CalibrateCommand, SeveralRecordingsAndEveryMethodInOneTable) {
+  const Desk desk;
+  desk.put("short.yaml", kShortScenario);
+  ASSERT_EQ(desk.umbsim({"run", "short.yaml", "--out", "a"}).code, 0);
+  ASSERT_EQ(desk.umbsim({"run", "short.yaml", "--set", "seed=2", "--out", "b"}).code, 0);
+  const Outcome outcome = desk.umbsim({"calibrate", "a", "b", "--out", "c"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  expect_says(outcome.out, {"endpoint", "iterated", "heading", "least-squares", "kelly", "likelihood", "no answer",
+                            "cannot be seen", "Winner: ", "[2] b"});
+  const json c = json_of(desk.home / "c/calibration.json").at("comparison");
+  EXPECT_EQ(c.at("methods").size(), 8u) << "nominal and seven";
+  EXPECT_EQ(c.at("folds"), 2);
+}
+
 // What limits the answer without making it wrong is said, not refused.
 TEST(CalibrateCommand, SaysWhatLimitsItsAnswer) {
   const Desk desk;

@@ -223,7 +223,7 @@ TEST_F(BadRecording, OtherFormat) {
 
 TEST_F(BadRecording, NotASquare) {
   change("rec/recording.yaml", "shape: square\n  side_m: 0.5\n", "shape: circle\n");
-  expect_refusal(desk_, {"calibrate", "rec"}, {"shape", "circle", "UMBmark needs squares"});
+  expect_refusal(desk_, {"calibrate", "rec", "--method", "endpoint"}, {"rec: endpoint needs closed squares"});
 }
 
 TEST_F(BadRecording, OneDirectionOnly) {
@@ -231,7 +231,7 @@ TEST_F(BadRecording, OneDirectionOnly) {
   header = std::regex_replace(header, std::regex(" *- \\{id: ccw-[^\n]*\n"), "");
   ASSERT_EQ(header.find("ccw"), std::string::npos) << header;
   desk_.put("rec/recording.yaml", header);
-  expect_refusal(desk_, {"calibrate", "rec"}, {"both directions", "no ccw run"});
+  expect_refusal(desk_, {"calibrate", "rec", "--method", "heading"}, {"heading needs squares of both directions"});
 }
 
 TEST(Refusal, AFolderThatIsNoRecording) {

@@ -1,8 +1,8 @@
-#include "gap/prediction.h"
+#include "calibration/prediction.h"
 
 #include <gtest/gtest.h>
 
-namespace umbsim::gap {
+namespace umbsim::calibration {
 namespace {
 
 std::vector<Pose2> figure() {
@@ -63,4 +63,4 @@ TEST(Reckoned, IsDeadReckoningAtTheTimesOfTheTruth) {
 }
 
 }  // namespace
-}  // namespace umbsim::gap
+}  // namespace umbsim::calibration

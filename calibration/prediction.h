@@ -7,7 +7,7 @@
 #include "odometry/dead_reckoning.h"
 #include "recording/recording.h"
 
-namespace umbsim::gap {
+namespace umbsim::calibration {
 
 /// Poses of every run at the times of its truth, as somebody predicts them from the ticks.
 struct Prediction {
@@ -32,6 +32,9 @@ Pose2 best_motion(const RecordedRun& run, const std::vector<Pose2>& track);
 RunError prediction_error(const RecordedRun& run, const std::vector<Pose2>& predicted);
 
 /// Dead reckoning on the recorded ticks, at the times of the truth, from its first pose.
+std::vector<Pose2> reckoned_track(const RecordedRun& run, const OdometryParameters& odometry);
+
+/// Of every run.
 Prediction reckoned(const std::string& name, const Recording& recording, const OdometryParameters& odometry);
 
-}  // namespace umbsim::gap
+}  // namespace umbsim::calibration

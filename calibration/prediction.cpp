@@ -1,9 +1,9 @@
-#include "gap/prediction.h"
+#include "calibration/prediction.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace umbsim::gap {
+namespace umbsim::calibration {
 namespace {
 
 double distance_mm(const Pose2& a, const Pose2& b) { return 1000 * std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
@@ -45,27 +45,29 @@ RunError prediction_error(const RecordedRun& run, const std::vector<Pose2>& pred
   return e;
 }
 
+std::vector<Pose2> reckoned_track(const RecordedRun& run, const OdometryParameters& odometry) {
+  const std::vector<EncoderSample>& s = run.encoders;
+  DeadReckoning reckoning(odometry, run.truth.front().X_WB, s.front().left_ticks, s.front().right_ticks);
+  std::vector<Pose2> at_samples{reckoning.pose()};
+  for (std::size_t i = 1; i < s.size(); ++i) {
+    reckoning.update(s[i].left_ticks, s[i].right_ticks);
+    at_samples.push_back(reckoning.pose());
+  }
+  std::vector<Pose2> track;
+  std::size_t i = 0;
+  for (const TruthSample& t : run.truth) {
+    while (i + 2 < s.size() && s[i + 1].time_s < t.time_s) ++i;
+    const double part = std::clamp((t.time_s - s[i].time_s) / (s[i + 1].time_s - s[i].time_s), 0.0, 1.0);
+    const Pose2 step = inverse(at_samples[i]) * at_samples[i + 1];
+    track.push_back(at_samples[i] * Pose2{part * step.x_m, part * step.y_m, part * step.theta_rad});
+  }
+  return track;
+}
+
 Prediction reckoned(const std::string& name, const Recording& recording, const OdometryParameters& odometry) {
   Prediction p{name, {}};
-  for (const RecordedRun& run : recording.runs) {
-    const std::vector<EncoderSample>& s = run.encoders;
-    DeadReckoning reckoning(odometry, run.truth.front().X_WB, s.front().left_ticks, s.front().right_ticks);
-    std::vector<Pose2> at_samples{reckoning.pose()};
-    for (std::size_t i = 1; i < s.size(); ++i) {
-      reckoning.update(s[i].left_ticks, s[i].right_ticks);
-      at_samples.push_back(reckoning.pose());
-    }
-    std::vector<Pose2> track;
-    std::size_t i = 0;
-    for (const TruthSample& t : run.truth) {
-      while (i + 2 < s.size() && s[i + 1].time_s < t.time_s) ++i;
-      const double part = std::clamp((t.time_s - s[i].time_s) / (s[i + 1].time_s - s[i].time_s), 0.0, 1.0);
-      const Pose2 step = inverse(at_samples[i]) * at_samples[i + 1];
-      track.push_back(at_samples[i] * Pose2{part * step.x_m, part * step.y_m, part * step.theta_rad});
-    }
-    p.tracks.push_back(std::move(track));
-  }
+  for (const RecordedRun& run : recording.runs) p.tracks.push_back(reckoned_track(run, odometry));
   return p;
 }
 
-}  // namespace umbsim::gap
+}  // namespace umbsim::calibration
