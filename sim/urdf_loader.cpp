@@ -111,7 +111,7 @@ RollingMass complete_wheel(const UrdfSource& source, const Body& body, Inertial 
 }
 
 Caster make_caster(const UrdfSource& source, const std::vector<Body>& bodies, const std::vector<Inertial>& masses,
-                   const Support& support) {
+                   const FoundSupport& support) {
   Caster caster = support.caster;
   double robot_kg = 0;
   for (const Inertial& mass : masses) robot_kg += mass.mass_kg;
@@ -152,11 +152,11 @@ RobotModel load_robot(const std::string& urdf_file, const DriveJoints& joints, c
   const std::vector<Body> bodies = in_frame(in_root, drive.root_in_base());
   const std::vector<int> wheel_bodies{drive.wheels[0].body, drive.wheels[1].body};
   const double radius_m = (drive.wheels[0].radius_m + drive.wheels[1].radius_m) / 2;
-  const std::vector<Support> supports = find_supports(source, bodies, wheel_bodies, radius_m);
+  const std::vector<FoundSupport> supports = find_supports(source, bodies, wheel_bodies, radius_m);
 
   std::vector<bool> separate(bodies.size(), false);
   for (const int wheel : wheel_bodies) separate[wheel] = true;
-  for (const Support& support : supports) {
+  for (const FoundSupport& support : supports) {
     if (support.fork >= 0) separate[support.fork] = true;
     if (support.wheel >= 0) separate[support.wheel] = true;
   }
@@ -178,7 +178,7 @@ RobotModel load_robot(const std::string& urdf_file, const DriveJoints& joints, c
     model.outside_shapes = model.outside_shapes || !drive.wheels[side].taken_from.empty();
     model.wheels[side].slide = slide_above(source, bodies, body);
   }
-  for (const Support& support : supports) model.casters.push_back(make_caster(source, bodies, masses, support));
+  for (const FoundSupport& support : supports) model.casters.push_back(make_caster(source, bodies, masses, support));
   remark_ignored(source, bodies, separate);
   if (remarks) *remarks = source.remarks();
   return model;

@@ -28,7 +28,7 @@ class SupportFinder {
     }
   }
 
-  std::vector<Support> find(const std::vector<int>& drive) {
+  std::vector<FoundSupport> find(const std::vector<int>& drive) {
     for (int i = 0; i < int(bodies_.size()); ++i) {
       if (top_[i] == 0) add_fixed(i);
       if (top_[i] == i && i > 0 && !std::count(drive.begin(), drive.end(), i)) add_swivel(i);
@@ -38,7 +38,7 @@ class SupportFinder {
       if (!stands()) (this->*guess)();
     }
     if (!stands()) refuse_to_fall_over();
-    for (Support& support : found_) {
+    for (FoundSupport& support : found_) {
       if (support.body > 0) support.caster.slide = slide_above(source_, bodies_, support.body);
     }
     return found_;
@@ -47,7 +47,7 @@ class SupportFinder {
  private:
   bool off_axle(const Eigen::Vector3d& place) const { return std::abs(place.x()) > kOffAxle_radii * radius_m_; }
   bool stands() const {
-    return std::any_of(found_.begin(), found_.end(), [&](const Support& s) { return off_axle(s.caster.centre_m); });
+    return std::any_of(found_.begin(), found_.end(), [&](const FoundSupport& s) { return off_axle(s.caster.centre_m); });
   }
 
   template <class Take>
@@ -108,7 +108,7 @@ class SupportFinder {
   }
 
   void add_ball(int body, const Shape& shape) {
-    Support support;
+    FoundSupport support;
     support.body = body;
     support.caster.link = shape.link;
     support.caster.radius_m = shape.half_extent_m().z();
@@ -153,8 +153,8 @@ class SupportFinder {
     found_.push_back(swivelling(top, index, shape));
   }
 
-  Support swivelling(int top, int index, const Shape& shape) const {
-    Support support;
+  FoundSupport swivelling(int top, int index, const Shape& shape) const {
+    FoundSupport support;
     Caster& caster = support.caster;
     support.fork = support.body = top;
     caster.link = shape.link;
@@ -199,7 +199,7 @@ class SupportFinder {
   const std::vector<Body>& bodies_;
   double radius_m_;
   std::vector<int> top_;  ///< the drive wheel or swivel a body hangs on; 0 for the base
-  std::vector<Support> found_;
+  std::vector<FoundSupport> found_;
   std::optional<Shape> missed_;
   int missed_body_ = 0;
 };
@@ -222,7 +222,7 @@ Slide slide_above(const UrdfSource& source, const std::vector<Body>& bodies, int
   return {};
 }
 
-std::vector<Support> find_supports(const UrdfSource& source, const std::vector<Body>& bodies,
+std::vector<FoundSupport> find_supports(const UrdfSource& source, const std::vector<Body>& bodies,
                                    const std::vector<int>& drive_bodies, double wheel_radius_m) {
   return SupportFinder(source, bodies, drive_bodies, wheel_radius_m).find(drive_bodies);
 }

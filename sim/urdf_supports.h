@@ -9,7 +9,7 @@
 namespace umbsim {
 
 /// A caster and the bodies that stay bodies of their own; -1 where its mass belongs to the base or fork.
-struct Support {
+struct FoundSupport {
   Caster caster;  ///< geometry; masses are filled in by load_robot
   int fork = -1;
   int wheel = -1;
@@ -28,7 +28,7 @@ Slide slide_above(const UrdfSource& source, const std::vector<Body>& bodies, int
 /// Where these give no third support off the axle, the first of these does, with a remark: a visual ball on the floor,
 /// a collision ball that reaches it if the robot leans by at most 3 degrees, a mesh of a fixed link called caster.
 /// Throws InputError: another shape on the floor behind a swivel, or no third support off the axle ("falls over").
-std::vector<Support> find_supports(const UrdfSource& source, const std::vector<Body>& bodies,
+std::vector<FoundSupport> find_supports(const UrdfSource& source, const std::vector<Body>& bodies,
                                    const std::vector<int>& drive_bodies, double wheel_radius_m);
 
 }  // namespace umbsim

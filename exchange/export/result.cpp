@@ -68,11 +68,26 @@ void noise_from_scatter(const json& umbmark, double side_m, CalibratedOdometry& 
   c.noise_from = "the scatter of the return headings, both wheels alike";
 }
 
+// Where the mean radius cannot be seen it is the nominal one, so that E_d and E_b say the rest (Borenstein & Feng 1995).
+void intervals_from_figures(const json& method, CalibratedOdometry& c) {
+  const double mean_m = (c.nominal.left_radius_m + c.nominal.right_radius_m) / 2;
+  const double b_m = c.nominal.wheelbase_m;
+  if (method.contains("e_d")) {
+    const double low = method["e_d"].at("ci95").at(0), high = method["e_d"].at("ci95").at(1);
+    c.intervals["left_radius_m"] = {mean_m * 2 / (1 + high), mean_m * 2 / (1 + low)};
+    c.intervals["right_radius_m"] = {mean_m * 2 * low / (1 + low), mean_m * 2 * high / (1 + high)};
+  }
+  if (method.contains("e_b"))
+    c.intervals["wheelbase_m"] = {b_m * method["e_b"].at("ci95").at(0).get<double>(),
+                                  b_m * method["e_b"].at("ci95").at(1).get<double>()};
+}
+
 // A method that says so itself, with its intervals.
 void from_methods(const json& result, CalibratedOdometry& c) {
-  if (!result.contains("methods") || !result["methods"].is_array()) return;
-  for (const json& m : result["methods"]) {
+  const json methods = result.value("comparison", json::object()).value("methods", json::array());
+  for (const json& m : methods) {
     if (m.value("name", "") != c.method) continue;
+    if (!m.value("mean_radius_observed", true)) intervals_from_figures(m, c);
     for (const char* key : {"left_radius_m", "right_radius_m", "wheelbase_m"}) {
       if (!m.contains(key) || !m[key].is_object() || !m[key].contains("ci95")) continue;
       c.intervals[key] = {m[key]["ci95"].at(0), m[key]["ci95"].at(1)};

@@ -86,12 +86,6 @@ const std::vector<Bad>& bad_recordings() {
          for (std::size_t i = s.size() / 3; i < s.size(); ++i) s[i].right_ticks += 5000;
        },
        {"right ticks jump", "Cut the run there"}},
-      {"a counter that overflowed",
-       [](Recording& r) {
-         auto& s = r.runs[2].encoders;
-         for (std::size_t i = s.size() / 2; i < s.size(); ++i) s[i].left_ticks -= 65536;
-       },
-       {"left ticks jump", "overflowed", "unwrap"}},
       {"truth with a gap",
        [](Recording& r) {
          auto& t = r.runs[0].truth;

@@ -10,7 +10,7 @@ namespace {
 struct Lab : Desk {
   Lab() {
     must({"import", data("drive_zstd.mcap"), "--robot", data("robot.urdf"), "--out", "mine"});
-    must({"calibrate", "mine", "--out", "calibrated"});
+    must({"calibrate", "mine", "--method", "heading", "--out", "calibrated"});
   }
   void must(const Words& words) const {
     const Outcome outcome = umbsim(words);
@@ -163,10 +163,10 @@ TEST(Export, OtherMethodsBringTheirIntervals) {
   json j = json_of(lab.home / "calibrated/calibration.json");
   const double base = j["odometry"]["wheelbase_m"];
   j["method"] = "likelihood";
-  j["methods"] = {{{"name", "likelihood"},
-                   {"wheelbase_m", {{"value", base}, {"ci95", {base - 0.0016, base + 0.0016}}}},
-                   {"left_m_per_sqrt_m", {{"value", 2e-4}}},
-                   {"right_m_per_sqrt_m", {{"value", 2e-4}}}}};
+  j["comparison"]["methods"] = {{{"name", "likelihood"},
+                                 {"wheelbase_m", {{"value", base}, {"ci95", {base - 0.0016, base + 0.0016}}}},
+                                 {"left_m_per_sqrt_m", {{"value", 2e-4}}},
+                                 {"right_m_per_sqrt_m", {{"value", 2e-4}}}}};
   lab.put("calibrated/calibration.json", j.dump());
   const std::string yaml = text_of(lab.exported("calibrated", "ros2_control") / "diff_drive_controller.yaml");
   EXPECT_NEAR(number_at(yaml, "wheel_separation_multiplier"), base / 0.16, 1e-8);
