@@ -28,7 +28,7 @@ function gapWorth(cause) {
   if (!cause.worth) return "";
   const text = (w) => `${gapMm(w.position_mm)}, ${fixed(w.heading_deg, 3)}\u00a0°`;
   const each = Object.entries(cause.worth.effects || {}).map(([name, w]) => `${escapeHtml(gapWords(name))}: ${text(w)}`);
-  return [text(cause.worth), ...each].join("<br>");
+  return [`takes away ${text(cause.worth)}`, ...each].join("<br>");
 }
 
 function gapRemainder(d) {
@@ -44,13 +44,13 @@ function gapWhichHtml(d) {
   const rows = shown.map((c) => {
     const tied = d.set.includes(gapNames(c).sort().join("+"));
     return `<tr><th scope="row" class="text">${escapeHtml(gapTitle(c))}</th><td class="bar-cell">${barHtml(c.probability, tied ? "tied" : "rest")}</td>
-      <td>${percent(c.probability)}</td><td class="text">${gapParameters(c)}</td><td class="text">${gapWorth(c)}</td></tr>`;
+      <td>${percent(c.probability)}</td><td class="text">${[gapParameters(c), gapWorth(c)].filter(Boolean).join("<br>")}</td></tr>`;
   });
   const set = d.set.map((n) => `<b>${escapeHtml(gapWords(n))}</b>`).join(", ");
   const alike = d.set.length > 1 ? `These data do not tell apart: ${set}.` : `Nothing else in the catalogue explains these data as well as ${set}.`;
   const rest = d.unexplained.detected && d.unexplained.description ? `<p class="notice">Left over: ${escapeHtml(d.unexplained.description)}.</p>` : "";
   return `<div class="table-wrap"><table><caption>Explanations with their probability, numbers with 95 % intervals</caption>
-    <thead><tr><th class="text">explanation</th><th></th><th>probability</th><th class="text">numbers</th><th class="text">takes away</th></tr></thead>
+    <thead><tr><th class="text">explanation</th><th></th><th>probability</th><th class="text">numbers</th></tr></thead>
     <tbody>${rows.join("")}</tbody></table></div><p>${alike}</p>${gapRemainder(d)}${rest}`;
 }
 
