@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <cmath>
@@ -6,26 +7,26 @@
 #include <memory>
 #include <set>
 
-#include "calibration/intake/intake.h"
 #include "cli/commands.h"
 #include "cli/gap_menu.h"
+#include "cli/gap_recordings.h"
 #include "cli/gap_simulator.h"
 #include "cli/help.h"
 #include "cli/jobs.h"
-#include "cli/shipped.h"
 #include "core/text_file.h"
 #include "core/wrapped_text.h"
 #include "experiment/build_info.h"
 #include "experiment/replay.h"
 #include "experiment/result_folder.h"
 #include "experiment/result_json.h"
-#include "gap/clock.h"
-#include "gap/diagnosis_json.h"
-#include "gap/diagnosis_text.h"
-#include "gap/plan_ties.h"
-#include "gap/remembered.h"
-#include "gap/tracks_json.h"
-#include "gap/verdict.h"
+#include "gap/answer/twin.h"
+#include "gap/diagnose.h"
+#include "gap/output/diagnosis_json.h"
+#include "gap/output/diagnosis_text.h"
+#include "gap/output/tracks_json.h"
+#include "gap/output/verdict.h"
+#include "gap/plan/ties.h"
+#include "gap/replay/remembered.h"
 #include "report/report.h"
 
 namespace umbsim {
@@ -34,7 +35,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct DiagnoseArguments {
-  std::string recording;
+  std::vector<std::string> recordings;
   std::string scenario;
   std::vector<std::string> excluded;
   std::string out;
@@ -75,7 +76,8 @@ std::vector<gap::NextExperiment> next_runs(const Scenario& scenario, const Recor
   without_runs.runs.clear();
   const Recording driven = with_menu(std::move(without_runs), scenario, menu);
   const Replay replay(scenario, driven);
-  const gap::Model model(driven, gap::remembered(cached_gap_simulator(replay, no_cache), driven), gap::Scatter{},
+  const gap::Campaign campaign = gap::campaign_of(driven);
+  const gap::Model model(campaign, gap::remembered(cached_gap_simulator(replay, no_cache), driven), gap::Scatter{},
                          noise);
   std::vector<std::string> labels;
   for (const gap::MenuRun& m : menu) labels.push_back(m.label);
@@ -95,24 +97,21 @@ void run_diagnose(const DiagnoseArguments& a) {
   const ThreadLimit limit(a.jobs);
   const auto start = std::chrono::steady_clock::now();
   for (const std::string& e : a.excluded) find_effect(e);
-  auto [given, limits] = intake::take_in(a.recording);
-  const Recording recording = gap::followed_through(given, limits);
-  const Scenario scenario = a.scenario.empty() ? scenario_of(recording, a.recording)
-                                               : read_scenario(shipped_path(ShippedKind::scenario, a.scenario));
-  ResultFolder out(a.out, folder_name(a.recording) + "-diagnosis", a.force);
-  const Replay replay(scenario, recording);
-  GapStages stages(recording.runs.size(), gap::stages_of_diagnosis());
+  const GapRecordings recordings(a.recordings, a.scenario);
+  const gap::Campaign& campaign = recordings.campaign();
+  ResultFolder out(a.out, recordings.name() + "-diagnosis", a.force);
+  GapStages stages(campaign.all.runs.size(), gap::stages_of_diagnosis());
   const gap::Say say = [&](const std::string& stage, double share) { stages.say(stage, share); };
-  const gap::Simulator simulator = stages.counted(cached_gap_simulator(replay, a.no_cache));
-  const gap::Model model(recording, gap::remembered(simulator, recording), gap::Scatter{});
+  const gap::Model model(campaign, stages.counted(recordings.simulator(a.no_cache)), gap::Scatter{});
   const std::set<std::string> excluded(a.excluded.begin(), a.excluded.end());
   gap::Diagnosis d = gap::diagnose(model, excluded, gap::Thresholds{}, say);
-  d.limits.insert(d.limits.begin(), limits.begin(), limits.end());
+  d.limits.insert(d.limits.begin(), recordings.limits().begin(), recordings.limits().end());
   say("what could be another effect", 0);
   const gap::Ties ties = gap::find_ties(model, d, excluded, gap::Thresholds{});
   gap::add_ties(ties, gap::Thresholds{}, d);
   say("what to drive next", 0);
-  const std::vector<gap::NextExperiment> next = next_runs(scenario, recording, ties, d.noise, a.no_cache);
+  const std::vector<gap::NextExperiment> next =
+      next_runs(recordings.scenario(), campaign.parts.front(), ties, d.noise, a.no_cache);
   stages.done();
   Json json = gap::diagnosis_json(d);
   json["next_experiment"] = Json::array();
@@ -125,11 +124,12 @@ void run_diagnose(const DiagnoseArguments& a) {
   out.write([&](const fs::path& into) {
     write_text_file(into / "diagnosis.json", json.dump(2) + "\n");
     write_text_file(into / "report.html", page(model, d, json));
-    write_scenario(twin(scenario, replay, d), into / "twin.yaml");
-    write_text_file(into / "provenance.json", provenance_json(a.recording, 0).dump(2) + "\n");
+    write_scenario(twin(recordings.scenario(), recordings.replay(), d), into / "twin.yaml");
+    write_text_file(into / "provenance.json",
+                    provenance_json(fmt::format("{}", fmt::join(a.recordings, " ")), 0).dump(2) + "\n");
   });
   fmt::print("{}{}Result in {}: diagnosis.json, twin.yaml; open {}/report.html\n",
-             wrapped(fmt::format("{}: {}", folder_name(a.recording), recording.title)), gap::diagnosis_text(d, next),
+             wrapped(fmt::format("{}: {}", recordings.name(), campaign.all.title)), gap::diagnosis_text(d, next),
              out.said(), out.path());
 }
 
@@ -143,12 +143,15 @@ void add_gap_command(CLI::App& app) {
   CLI::App* command = group->add_subcommand(
       "diagnose",
       "Where the simulator and the recorded robot part, which effect explains it, how much adding it helps");
-  command->add_option("recording", a->recording, "Folder of the recording (real or simulated)")->required();
+  command
+      ->add_option("recording", a->recordings,
+                   "Folder of the recording (real or simulated); several of one robot are diagnosed together")
+      ->required();
   command->add_option("--scenario", a->scenario,
                       "Scenario that was thought to describe it, with its effects; default: the recording's robot");
   command->add_option("--exclude", a->excluded, "Take an effect out of the catalogue (repeatable)")
       ->allow_extra_args(false);
-  command->add_option("-o,--out", a->out, "Folder for the result; default results/<recording>-diagnosis");
+  command->add_option("-o,--out", a->out, "Folder for the result; default results/<recordings>-diagnosis");
   command->add_flag("--force", a->force, "Replace a finished result");
   command->add_flag("--no-cache", a->no_cache, "Keep no simulated tracks in the user's cache folder, and use none");
   add_threads_option(*command, a->jobs);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "experiment/planned_runs.h"
-#include "gap/clock.h"
+#include "gap/noise/clock.h"
 
 namespace umbsim {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "experiment/scenario.h"
-#include "gap/plan_menu.h"
+#include "gap/plan/menu.h"
 
 namespace umbsim {
 

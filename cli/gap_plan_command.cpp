@@ -15,9 +15,9 @@
 #include "core/text_file.h"
 #include "experiment/result_folder.h"
 #include "experiment/result_json.h"
-#include "gap/clock.h"
-#include "gap/plan_json.h"
-#include "gap/remembered.h"
+#include "gap/noise/clock.h"
+#include "gap/plan/json.h"
+#include "gap/replay/remembered.h"
 
 namespace umbsim {
 namespace {
@@ -46,7 +46,7 @@ struct Subject {
   std::vector<std::string> limits;
 };
 
-// Noise as a scenario describes it; counting is part of it (gap/model.cpp).
+// Noise as a scenario describes it; counting is part of it (gap/evidence/model.cpp).
 gap::NoiseModel noise_of(const Scenario& s, const RecordedRobot& robot, std::vector<std::string>& limits) {
   gap::NoiseModel noise;
   const double k = s.noise.wheel_noise_m_per_sqrt_m;
@@ -88,7 +88,8 @@ Subject of_recording(const std::string& folder, bool no_cache) {
   s.recording = gap::followed_through(given.recording, s.limits);
   s.scenario = scenario_of(s.recording, folder);
   const Replay replay(s.scenario, s.recording);
-  const gap::Model model(s.recording, gap::remembered(cached_gap_simulator(replay, no_cache), s.recording), s.scatter);
+  const gap::Campaign campaign = gap::campaign_of(s.recording);
+  const gap::Model model(campaign, gap::remembered(cached_gap_simulator(replay, no_cache), s.recording), s.scatter);
   s.noise = model.noise();
   Recording nominal = s.recording;
   for (std::size_t r = 0; r < nominal.runs.size(); ++r) {
@@ -138,7 +139,8 @@ void plan(const PlanArguments& a) {
   GapStages stages(all.runs.size(), gap::stages_of_plan());
   const gap::Say say = [&](const std::string& stage, double share) { stages.say(stage, share); };
   const gap::Simulator simulator = stages.counted(cached_gap_simulator(replay, a.no_cache));
-  const gap::Model model(all, gap::remembered(simulator, all), s.scatter, s.noise);
+  const gap::Campaign campaign = gap::campaign_of(all);
+  const gap::Model model(campaign, gap::remembered(simulator, all), s.scatter, s.noise);
   const gap::Plan result = gap::plan(model, context.given, s.scatter.radius, options, say);
   stages.done();
   out.write([&](const fs::path& into) {
@@ -160,13 +162,15 @@ void add_gap_plan_command(CLI::App& group) {
       ->delimiter(',');
   command->add_option("--exclude", a->excluded, "Leave an effect out (repeatable)")->allow_extra_args(false);
   command->add_option("--severity", a->options.severity, "Size of each effect in noise floors of these runs")
-      ->check(CLI::Range(0.1, 1000.0))->capture_default_str();
+      ->check(CLI::Range(0.1, 1000.0))
+      ->capture_default_str();
   command
       ->add_option("--alike", a->options.alike, "Probability of a mistake above which two effects are not told apart")
       ->check(CLI::Range(0.001, 0.5))
       ->capture_default_str();
   command->add_option("--draws", a->options.draws, "Sampled cases of each effect")
-      ->check(CLI::Range(10, 100000))->capture_default_str();
+      ->check(CLI::Range(10, 100000))
+      ->capture_default_str();
   command->add_option("--seed", a->options.seed, "Of the sampled cases")->capture_default_str();
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<name>-plan");
   command->add_flag("--force", a->force, "Replace a finished result");

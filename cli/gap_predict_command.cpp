@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PredictArguments {
-  std::string recording;
+  std::vector<std::string> recordings;
   std::string scenario;
   std::string squares;
   std::string out;
@@ -42,13 +42,13 @@ calibration::Prediction replayed(const std::string& name, const Replay& replay, 
 
 // The simulator before and after; where squares are given, what odometry calibrated on them would have said.
 std::vector<calibration::Prediction> predictions(const Replay& replay, const std::vector<Effect>& effects,
-                                         const std::string& squares) {
+                                                 const std::string& squares) {
   const Recording& recording = replay.recording();
   const RecordedRobot& robot = recording.robot;
   const OdometryParameters nominal{robot.wheel_radius_m, robot.wheel_radius_m, robot.wheelbase_m,
                                    robot.ticks_per_revolution};
   std::vector<calibration::Prediction> all{replayed("before", replay, {}), replayed("after", replay, effects),
-                                   calibration::reckoned("odometry", recording, nominal)};
+                                           calibration::reckoned("odometry", recording, nominal)};
   if (squares.empty()) return all;
   const Umbmark u = umbmark(intake::take_in(squares).recording, nominal);
   all.push_back(calibration::reckoned("umbmark", recording, corrected(nominal, u.endpoint)));
@@ -59,20 +59,37 @@ std::vector<calibration::Prediction> predictions(const Replay& replay, const std
 struct Scores {
   std::string name;
   std::vector<calibration::RunError> runs;
-  calibration::RunError mean;
+  calibration::RunError mean() const {
+    calibration::RunError mean;
+    const double n = double(runs.size());
+    for (const calibration::RunError& run : runs) {
+      mean.final_mm += run.final_mm / n;
+      mean.along_mm += run.along_mm / n;
+      mean.raw_final_mm += run.raw_final_mm / n;
+      mean.frame_deg += run.frame_deg / n;
+    }
+    return mean;
+  }
 };
 
-Scores scores(const Recording& recording, const calibration::Prediction& p) {
-  Scores s{p.name, {}, {}};
-  const double n = double(p.tracks.size());
-  for (std::size_t r = 0; r < p.tracks.size(); ++r) {
-    s.runs.push_back(calibration::prediction_error(recording.runs[r], p.tracks[r]));
-    s.mean.final_mm += s.runs.back().final_mm / n;
-    s.mean.along_mm += s.runs.back().along_mm / n;
-    s.mean.raw_final_mm += s.runs.back().raw_final_mm / n;
-    s.mean.frame_deg += s.runs.back().frame_deg / n;
+/// A recording with what is predicted of its runs.
+struct Predicted {
+  std::string name;
+  Recording recording;
+  std::vector<Scores> scores;
+};
+
+Predicted predicted(const std::string& folder, const Scenario& scenario, const std::string& squares) {
+  Predicted p{folder_name(folder), intake::take_in(folder).recording, {}};
+  Scenario without = scenario;
+  without.effects.clear();
+  const Replay replay(without, p.recording, false);
+  for (const calibration::Prediction& prediction : predictions(replay, scenario.effects, squares)) {
+    p.scores.push_back({prediction.name, {}});
+    for (std::size_t r = 0; r < prediction.tracks.size(); ++r)
+      p.scores.back().runs.push_back(calibration::prediction_error(p.recording.runs[r], prediction.tracks[r]));
   }
-  return s;
+  return p;
 }
 
 Json error_json(const calibration::RunError& e) {
@@ -80,18 +97,30 @@ Json error_json(const calibration::RunError& e) {
       {"final_mm", e.final_mm}, {"along_mm", e.along_mm}, {"raw_final_mm", e.raw_final_mm}, {"frame_deg", e.frame_deg}};
 }
 
-Json prediction_json(const Recording& recording, const std::vector<Scores>& all) {
-  Json json{{"format", "umbsim-prediction/1"}};
-  for (const Scores& s : all) {
+Json scores_json(const Predicted& p) {
+  Json json = Json::object();
+  for (const Scores& s : p.scores) {
     Json runs = Json::object();
-    for (std::size_t r = 0; r < s.runs.size(); ++r) runs[recording.runs[r].id] = error_json(s.runs[r]);
-    json["predictions"][s.name] = {{"mean", error_json(s.mean)}, {"runs", runs}};
+    for (std::size_t r = 0; r < s.runs.size(); ++r) runs[p.recording.runs[r].id] = error_json(s.runs[r]);
+    json[s.name] = {{"mean", error_json(s.mean())}, {"runs", runs}};
   }
   return json;
 }
 
-std::string table(const Recording& recording, const std::vector<Scores>& all, const std::string& title,
-                  double calibration::RunError::*error) {
+// Of one recording its predictions; of several those of each under its name.
+Json prediction_json(const std::vector<Predicted>& all) {
+  Json json{{"format", "umbsim-prediction/1"}};
+  if (all.size() == 1) {
+    json["predictions"] = scores_json(all.front());
+    return json;
+  }
+  for (const Predicted& p : all) json["recordings"][p.name]["predictions"] = scores_json(p);
+  return json;
+}
+
+std::string table(const Predicted& p, const std::string& title, double calibration::RunError::*error) {
+  const std::vector<Scores>& all = p.scores;
+  const Recording& recording = p.recording;
   constexpr std::size_t kLabel = 24;
   std::string text = fitted(title, kLabel);
   for (const Scores& s : all) text += fmt::format("{:>11}", s.name);
@@ -102,35 +131,35 @@ std::string table(const Recording& recording, const std::vector<Scores>& all, co
     text += "\n";
   };
   for (std::size_t r = 0; r < recording.runs.size(); ++r) {
-    row(recording.runs[r].id, [r](const Scores& s) -> const calibration::RunError& { return s.runs[r]; });
+    row(recording.runs[r].id, [r](const Scores& s) { return s.runs[r]; });
   }
-  row("mean", [](const Scores& s) -> const calibration::RunError& { return s.mean; });
+  row("mean", [](const Scores& s) { return s.mean(); });
   return text;
 }
 
 void predict(const PredictArguments& a) {
   const ThreadLimit limit(a.jobs);
-  const Recording recording = intake::take_in(a.recording).recording;
   const Scenario scenario = read_scenario(shipped_path(ShippedKind::scenario, a.scenario));
-  const std::string base = folder_name(a.recording);
-  ResultFolder out(a.out, base + "-prediction", a.force);
-  Scenario without = scenario;
-  without.effects.clear();
-  const Replay replay(without, recording, false);
-  std::vector<Scores> all;
-  for (const calibration::Prediction& p : predictions(replay, scenario.effects, a.squares)) all.push_back(scores(recording, p));
+  std::vector<std::string> names;
+  for (const std::string& folder : a.recordings) names.push_back(folder_name(folder));
+  ResultFolder out(a.out, fmt::format("{}-prediction", fmt::join(names, "+")), a.force);
+  std::vector<Predicted> all;
+  for (const std::string& folder : a.recordings) all.push_back(predicted(folder, scenario, a.squares));
   out.write([&](const fs::path& into) {
-    write_text_file(into / "prediction.json", prediction_json(recording, all).dump(2) + "\n");
-    write_text_file(into / "provenance.json", provenance_json(a.recording, 0).dump(2) + "\n");
+    write_text_file(into / "prediction.json", prediction_json(all).dump(2) + "\n");
+    const std::string source = fmt::format("{}", fmt::join(a.recordings, " "));
+    write_text_file(into / "provenance.json", provenance_json(source, 0).dump(2) + "\n");
   });
   std::vector<std::string> effects;
   for (const Effect& e : scenario.effects) effects.push_back(e.info->name);
-  fmt::print("{}{}Final position error, mm\n{}{}Result in {}: prediction.json\n",
-             wrapped(fmt::format("{}: {}", base, recording.title)),
-             wrapped(fmt::format("Effects of {}: {}", a.scenario,
-                                 effects.empty() ? "none" : fmt::format("{}", fmt::join(effects, ", ")))),
-             table(recording, all, "start and frame fitted", &calibration::RunError::final_mm),
-             table(recording, all, "recorded start as exact", &calibration::RunError::raw_final_mm), out.said());
+  fmt::print("{}", wrapped(fmt::format("Effects of {}: {}", a.scenario,
+                                       effects.empty() ? "none" : fmt::format("{}", fmt::join(effects, ", ")))));
+  for (const Predicted& p : all) {
+    fmt::print("{}Final position error, mm\n{}{}", wrapped(fmt::format("{}: {}", p.name, p.recording.title)),
+               table(p, "start and frame fitted", &calibration::RunError::final_mm),
+               table(p, "recorded start as exact", &calibration::RunError::raw_final_mm));
+  }
+  fmt::print("Result in {}: prediction.json\n", out.said());
 }
 
 }  // namespace
@@ -140,7 +169,7 @@ void add_gap_predict_command(CLI::App& group) {
   CLI::App* command = group.add_subcommand(
       "predict",
       "Replay a recording from its ticks under a scenario's effects: how far the prediction ends from the truth");
-  command->add_option("recording", a->recording, "Folder of the recording (real or simulated)")->required();
+  command->add_option("recording", a->recordings, "Folders of recordings (real or simulated) of one robot")->required();
   command->add_option("--scenario", a->scenario, "Scenario with the effects, such as the twin.yaml of a diagnosis")
       ->required();
   command->add_option("--squares", a->squares,
@@ -148,8 +177,7 @@ void add_gap_predict_command(CLI::App& group) {
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<recording>-prediction");
   command->add_flag("--force", a->force, "Replace a finished result");
   add_threads_option(*command, a->jobs);
-  add_example(command,
-              "umbsim gap predict results/umbmark --scenario \\\n    results/umbmark-diagnosis/twin.yaml");
+  add_example(command, "umbsim gap predict results/umbmark --scenario \\\n    results/umbmark-diagnosis/twin.yaml");
   command->callback([a] { predict(*a); });
 }
 

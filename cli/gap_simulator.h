@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "experiment/replay.h"
-#include "gap/diagnosis_progress.h"
-#include "gap/signature_cache.h"
+#include "gap/output/diagnosis_progress.h"
+#include "gap/replay/signature_cache.h"
 
 namespace umbsim {
 

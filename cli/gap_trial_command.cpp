@@ -12,7 +12,7 @@
 #include "experiment/planned_runs.h"
 #include "experiment/result_json.h"
 #include "experiment/run_folder.h"
-#include "gap/track_filter.h"
+#include "gap/noise/track_filter.h"
 #include "gap/trial/diagnose_cases.h"
 #include "gap/trial/generate.h"
 #include "gap/trial/score.h"
@@ -68,8 +68,7 @@ void generate(const TrialArguments& a) {
 void diagnose(const TrialArguments& a) {
   const fs::path program = a.program.empty() ? fs::read_symlink("/proc/self/exe") : fs::absolute(a.program);
   const TrialFolder folder(a.folder);
-  const DiagnoseResult result =
-      diagnose_cases(folder, {program, a.cache, parse_shard(a.shard), a.jobs, a.retry});
+  const DiagnoseResult result = diagnose_cases(folder, {program, a.cache, parse_shard(a.shard), a.jobs, a.retry});
   fmt::print("{}: {} of {} cases diagnosed, {} of them failed\n", folder.root.string(), result.finished, result.cases,
              result.failed);
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/wrapped_text.h"
-#include "gap/clock.h"
+#include "gap/noise/clock.h"
 
 namespace umbsim {
 namespace {

@@ -16,7 +16,7 @@ std::string render_report(const nlohmann::json& data);
 std::string render_sweep_report(const nlohmann::json& data);
 
 /// The same for a gap diagnosis: `data` holds title, version, diagnosis (diagnosis.json without its cost) and runs
-/// (gap/tracks_json.h).
+/// (gap/output/tracks_json.h).
 std::string render_gap_report(const nlohmann::json& data);
 
 }  // namespace umbsim

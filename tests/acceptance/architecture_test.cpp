@@ -31,8 +31,20 @@ const std::map<std::string, Names> kArrows = {
     {"experiment", {"batch", "effects", "calibration", "umbmark", "recording", "odometry", "sim", "core"}},
     {"exchange", {"calibration", "recording", "odometry", "sim", "core"}},
     {"cli",
-     {"exchange", "experiment", "gap", "calibration", "report", "umbmark", "effects", "recording", "odometry", "sim", "batch",
-      "core"}},
+     {"exchange", "experiment", "gap", "calibration", "report", "umbmark", "effects", "recording", "odometry", "sim",
+      "batch", "core"}},
+};
+/// Rooms of gap/: a room may include itself and these; files that stand in gap/ itself, the spine, may include all.
+const std::map<std::string, Names> kRoomsOfGap = {
+    {"replay", {}},
+    {"noise", {"replay"}},
+    {"hypotheses", {}},
+    {"evidence", {"replay", "noise", "hypotheses"}},
+    {"search", {"replay", "noise", "hypotheses", "evidence"}},
+    {"answer", {"replay", "noise", "hypotheses", "evidence", "search"}},
+    {"plan", {"replay", "noise", "hypotheses", "evidence", "search", "answer"}},
+    {"output", {"replay", "noise", "hypotheses", "evidence", "search", "answer", "plan"}},
+    {"trial", {}},
 };
 /// Of effects/, gap/ may see the table only.
 const Names kGapSeesOfEffects = {"effects/catalogue.h", "effects/words.h"};
@@ -40,12 +52,12 @@ const Names kGapSeesOfEffects = {"effects/catalogue.h", "effects/words.h"};
 /// Where Bullet may be seen.
 const Names kSeesBullet = {"sim", "tests/sim", "bench"};
 
-const Names kTopLevel = {"README.md", "CHANGELOG.md", "umbsim",      "test",   "CMakeLists.txt", "CMakePresets.json",
-                         "scenarios", "robots",       "core",        "sim",    "odometry",       "effects",
-                         "umbmark",   "recording",    "calibration", "gap",    "experiment",     "report", "batch",
-                         "exchange",
-                         "cli",       "tests",        "bench",       "docs",   "cmake",          "results",
-                         "slurm",     "LICENSE",      "CONTRIBUTING.md",       "CMakeUserPresets.json"};
+const Names kTopLevel = {
+    "README.md", "CHANGELOG.md", "umbsim",      "test",    "CMakeLists.txt",  "CMakePresets.json",
+    "scenarios", "robots",       "core",        "sim",     "odometry",        "effects",
+    "umbmark",   "recording",    "calibration", "gap",     "experiment",      "report",
+    "batch",     "exchange",     "cli",         "tests",   "bench",           "docs",
+    "cmake",     "results",      "slurm",       "LICENSE", "CONTRIBUTING.md", "CMakeUserPresets.json"};
 const Names kMustStand = {"README.md", "CHANGELOG.md", "umbsim", "test", "CMakeLists.txt", "CMakePresets.json"};
 
 const fs::path kRoot = UMBSIM_SOURCE_DIR;
@@ -96,6 +108,12 @@ const std::vector<Include>& all_includes() {
   return includes;
 }
 
+std::vector<std::string> parts_of(const fs::path& path) {
+  std::vector<std::string> parts;
+  for (const fs::path& part : path) parts.push_back(part.string());
+  return parts;
+}
+
 std::string where(const Include& i) { return i.file + ":" + std::to_string(i.line) + ": includes " + i.name; }
 
 TEST(Architecture, SourcesAreFound) { EXPECT_GT(all_includes().size(), 100u); }
@@ -105,10 +123,21 @@ TEST(Architecture, FoldersIncludeOnlyWhatTheyMay) {
     const auto arrows = kArrows.find(i.folder);
     if (!i.quoted || arrows == kArrows.end()) continue;  // tests and benchmarks may see everything
     const std::size_t slash = i.name.find('/');
-    if (slash == std::string::npos) continue;            // a generated file of the same folder
+    if (slash == std::string::npos) continue;  // a generated file of the same folder
     const std::string target = i.name.substr(0, slash);
     EXPECT_TRUE(target == i.folder || arrows->second.count(target)) << where(i);
     if (i.folder == "gap" && target == "effects") EXPECT_TRUE(kGapSeesOfEffects.count(i.name)) << where(i);
+  }
+}
+
+TEST(Architecture, RoomsOfGapIncludeOnlyWhatTheyMay) {
+  for (const Include& i : all_includes()) {
+    const std::vector<std::string> from = parts_of(i.file);
+    const std::vector<std::string> to = parts_of(i.name);
+    if (i.folder != "gap" || from.size() < 3 || to.size() < 3 || to[0] != "gap") continue;
+    const auto room = kRoomsOfGap.find(from[1]);
+    ASSERT_NE(room, kRoomsOfGap.end()) << i.file << " stands in a room that this test does not know";
+    EXPECT_TRUE(to[1] == from[1] || room->second.count(to[1])) << where(i);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "gap/answer_set.h"
+#include "gap/answer/answer_set.h"
 
 #include <gmock/gmock.h>
 

@@ -1,9 +1,8 @@
 // The tracker's clock against the encoders', from headings alone.
-#include "gap/clock.h"
-
-#include <gtest/gtest.h>
+#include "gap/noise/clock.h"
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include "tests/gap/recordings.h"
 

@@ -1,4 +1,4 @@
-#include "gap/counts_noise.h"
+#include "gap/noise/counts_noise.h"
 
 #include <gtest/gtest.h>
 
@@ -36,14 +36,15 @@ const std::vector<CommandFeatures> kForetold = features({0, 0, 0, 0, 0, 0});
 // Squares about each group's mean: (4 and 2 runs) with 3 + 1 degrees of freedom of each wheel, beside eight usual ones.
 TEST(CountsNoise, GainsScatterAsRunsAlikeSay) {
   const double usual = 4e-4;
-  const double sd = gain_scatter(six_runs(), features({1e-3, -1e-3, 1e-3, -1e-3, 5e-3, 7e-3}), kForetold, usual);
+  const double sd =
+      gain_scatter(grouped(six_runs()), features({1e-3, -1e-3, 1e-3, -1e-3, 5e-3, 7e-3}), kForetold, usual);
   EXPECT_NEAR(sd, std::sqrt((8 * usual * usual + 4e-6 + 2e-6) / (8 + 3 + 1 + 3 + 1)), 1e-12);
 }
 
 TEST(CountsNoise, AGainThatAllRunsShareIsNoScatter) {
-  EXPECT_EQ(gain_scatter(six_runs(), features({5e-3, 5e-3, 5e-3, 5e-3, 8e-3, 8e-3}), kForetold, 4e-4), 4e-4);
+  EXPECT_EQ(gain_scatter(grouped(six_runs()), features({5e-3, 5e-3, 5e-3, 5e-3, 8e-3, 8e-3}), kForetold, 4e-4), 4e-4);
   std::vector<CommandFeatures> unknown(6);
-  EXPECT_EQ(gain_scatter(six_runs(), unknown, kForetold, 4e-4), 4e-4);
+  EXPECT_EQ(gain_scatter(grouped(six_runs()), unknown, kForetold, 4e-4), 4e-4);
 }
 
 // A lag of 0.1 s is an eighth of a ramp of 0.8 s and a fifth of one of 0.5 s.

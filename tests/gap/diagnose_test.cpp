@@ -1,5 +1,4 @@
 // The whole diagnosis on small simulated campaigns whose effect is known.
-#include "calibration/intake/intake.h"
 #include "gap/diagnose.h"
 
 #include <fmt/format.h>
@@ -10,16 +9,17 @@
 #include <algorithm>
 #include <iostream>
 
-#include "gap/addition.h"
-#include "gap/diagnosis_json.h"
+#include "calibration/intake/intake.h"
+#include "gap/output/diagnosis_json.h"
+#include "gap/search/addition.h"
 #include "tests/gap/patient.h"
 
 namespace umbsim::gap {
 namespace {
 
 using testing::campaign;
-using testing::Patient;
 using testing::effect;
+using testing::Patient;
 
 std::string text(const Diagnosis& d) {
   std::string all = fmt::format("detected {}, {}, set {}", d.detected, d.stage, fmt::join(d.set, " "));
@@ -175,8 +175,7 @@ TEST(Diagnose, WhatCommandsShowStandsBesideUnknown) {
 // How tyres slip under a demand is not always reproduced: turns that go wrong where commands show that they were too
 // fast do so for that reason. (Here a wheelbase that the catalogue lacks stands for the tyres.)
 TEST(Diagnose, ADemandThatCommandsShowExplainsWhatGoesWrongInTurns) {
-  const Patient p(
-      campaign({effect("wheelbase", {{"relative", 0.008}}), effect("fast_turning", {{"factor", 3}})}, 16));
+  const Patient p(campaign({effect("wheelbase", {{"relative", 0.008}}), effect("fast_turning", {{"factor", 3}})}, 16));
   EXPECT_EQ(p.diagnosed().causes.front().name, "fast_turning+wheelbase");
   const Diagnosis d = p.diagnosed({"wheelbase"});
   std::cout << text(d) << "\n";

@@ -1,11 +1,10 @@
-#include "gap/evidence.h"
+#include "gap/evidence/evidence.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <cmath>
 
 #include "core/random.h"
 

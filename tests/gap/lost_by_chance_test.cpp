@@ -1,5 +1,5 @@
 // Counts that get lost one by one make a robot scatter, and a robot that does not scatter lost none.
-#include "gap/lost_by_chance.h"
+#include "gap/noise/lost_by_chance.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// The first experiment that anyone tries: one effect, no noise at all. Runs that repeat to the last digit say nothing of
-// what a replay of their counts misses.
+// The first experiment that anyone tries: one effect, no noise at all. Runs that repeat to the last digit say nothing
+// of what a replay of their counts misses.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "gap/least_noise.h"
+#include "gap/noise/least_noise.h"
 #include "tests/gap/patient.h"
 
 namespace umbsim::gap {
@@ -31,8 +31,8 @@ constexpr int kPerDirection = 2;
 
 Effect creep() { return effect("tyre_creep", {{"along", 0.02}, {"across", 0.02}}); }
 
-// Typical sizes. Slopes, drag, toe and swivelling casters act through tyres that give way, loads through soft ones: alone
-// they move no pose of a robot on rigid wheels, and that robot has no gap.
+// Typical sizes. Slopes, drag, toe and swivelling casters act through tyres that give way, loads through soft ones:
+// alone they move no pose of a robot on rigid wheels, and that robot has no gap.
 const std::vector<Case>& cases() {
   static const std::vector<Case> all = {
       {"wheel_radius_scale", {{"relative", 0.01}}, {{"relative", 0.01}}},
@@ -55,7 +55,9 @@ const std::vector<Case>& cases() {
       {"encoder_latency", {{"seconds", 0.1}}, {{"seconds", 0.1}}},
       {"tyre_compliance", {{"metres_per_newton", 1.5e-6}}, {{"metres_per_newton", 3e-6}}, {}, true},
       {"contact_patch", {{"width_m", 0.02}}, {{"width_m", 0.02}}},
-      {"tyre_creep", {{"along", 0.05}, {"across", 0.05}}, {{"along", 0.05}, {"across", 0.05}},
+      {"tyre_creep",
+       {{"along", 0.05}, {"across", 0.05}},
+       {{"along", 0.05}, {"across", 0.05}},
        effect("floor_slope", {{"slope_rad", 0.02}, {"downhill_rad", 1}})},
       {"caster_swivel", {{"trail_m", 0.03}, {"friction_nm", 0.2}}, {{"trail_m", 0.03}, {"friction_nm", 0.02}}, creep()},
       {"caster_drag", {{"coefficient", 0.03}, {"left_m", 0.05}}, {{"coefficient", 0.03}, {"left_m", 0.02}}, creep()},
@@ -120,7 +122,8 @@ std::string name_of(const ::testing::TestParamInfo<NoiseFree::ParamType>& info) 
 }
 
 INSTANTIATE_TEST_SUITE_P(Effects, NoiseFree,
-                         ::testing::Combine(::testing::Range(std::size_t(0), std::size_t(28)), ::testing::Bool()), name_of);
+                         ::testing::Combine(::testing::Range(std::size_t(0), std::size_t(28)), ::testing::Bool()),
+                         name_of);
 
 TEST(NoiseFree, EveryEffectHasACase) {
   ASSERT_EQ(cases().size(), catalogue().size());

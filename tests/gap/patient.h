@@ -15,7 +15,8 @@ struct Patient {
   explicit Patient(Recording r, const std::vector<Effect>& believed = {})
       : recording(std::move(r)),
         replay(with_effects(scenario_of(recording, "."), believed), recording),
-        model(recording, simulator(replay), gap::Scatter{}) {}
+        campaign(gap::campaign_of(recording)),
+        model(campaign, simulator(replay), gap::Scatter{}) {}
   gap::Diagnosis diagnosed(const std::set<std::string>& excluded = {}) const {
     return gap::diagnose(model, excluded, gap::Thresholds{}, [](const std::string&, double) {});
   }
@@ -27,6 +28,7 @@ struct Patient {
 
   Recording recording;
   Replay replay;
+  gap::Campaign campaign;
   gap::Model model;
 };
 

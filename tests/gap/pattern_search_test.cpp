@@ -1,4 +1,4 @@
-#include "gap/pattern_search.h"
+#include "gap/search/pattern_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What runs can tell apart before any data, against closed forms and what is known of the effects.
-#include "gap/plan.h"
+#include "gap/plan/plan.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <iostream>
 
 #include "experiment/planned_runs.h"
-#include "gap/plan_menu.h"
-#include "gap/plan_select.h"
+#include "gap/plan/menu.h"
+#include "gap/plan/select.h"
 #include "tests/gap/recordings.h"
 
 namespace umbsim::gap {
@@ -39,7 +39,8 @@ Recording driven(const std::vector<std::string>& kinds, bool commands = true) {
 
 struct Subject {
   explicit Subject(Recording r)
-      : recording(std::move(r)), replay(scenario_of(recording, "."), recording),
+      : recording(std::move(r)),
+        replay(scenario_of(recording, "."), recording),
         model(recording, testing::simulator(replay), Scatter{}, NoiseModel{}) {}
 
   /// Mean probability of naming one of two effects for the other, both at the usual severity; -1 if one is not shown.
@@ -99,9 +100,13 @@ TEST(Plan, ARotatedStartTellsCarpetFromGeometry) {
 
 Signature one_number(const std::string& effect, int first, double prior_sd) {
   Signature s;
-  s.planned.family = {effect, "", {{"x", 0, 1, prior_sd, -1e9, 1e9}}, [effect](const Eigen::VectorXd&) {
-                        return neutral_effect(find_effect(effect)).values;
-                      }, {}, true, 0};
+  s.planned.family = {effect,
+                      "",
+                      {{"x", 0, 1, prior_sd, -1e9, 1e9}},
+                      [effect](const Eigen::VectorXd&) { return neutral_effect(find_effect(effect)).values; },
+                      {},
+                      true,
+                      0};
   s.first = first;
   s.count = 1;
   s.prior_sd = Eigen::VectorXd::Constant(1, prior_sd);

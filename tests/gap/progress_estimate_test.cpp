@@ -1,6 +1,6 @@
 // How far a diagnosis has come, held against what real ones took: processor times of recordings of several kinds, as
 // they were measured (progress_traces.csv: seconds, stage, share of it). No test here looks at a clock.
-#include "gap/progress_estimate.h"
+#include "gap/output/progress_estimate.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 
 #include "experiment/replay.h"
 #include "experiment/run.h"
-#include "gap/simulator.h"
+#include "gap/replay/simulator.h"
 
 namespace umbsim::testing {
 
@@ -88,7 +88,8 @@ inline gap::Simulator simulator(const Replay& replay) {
           },
           [&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.counts(run, effects); },
           [&replay](const std::vector<Effect>& effects) { return replay.habits(effects); },
-          [&replay](const std::vector<Effect>& effects) { return replay.scrubs(effects); }, replay.wheel_width_m(),
+          [&replay](const std::vector<Effect>& effects) { return replay.scrubs(effects); },
+          replay.wheel_width_m(),
           replay.nominal().total_mass_kg()};
 }
 

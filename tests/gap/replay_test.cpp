@@ -1,13 +1,12 @@
 // What run_experiment drove is driven again from its ticks: the truth must come out.
 #include "experiment/replay.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <iostream>
 
-#include <fmt/format.h>
-
-#include "gap/command_features.h"
+#include "gap/replay/command_features.h"
 #include "recording/coarse_counts.h"
 #include "tests/gap/recordings.h"
 
@@ -51,8 +50,8 @@ Distances distances(const Scenario& scenario) {
 constexpr double kHalfPeriod_m = 0.010 * 0.3;
 /// Of an 8 m square, at its end.
 constexpr double kEnd_m = 0.1e-3;
-/// Of what an effect does: lost counts come back in the mean only; a cable stops a shaft within one period; the leg of a
-/// push begins a period earlier for what the counts show.
+/// Of what an effect does: lost counts come back in the mean only; a cable stops a shaft within one period; the leg of
+/// a push begins a period earlier for what the counts show.
 constexpr double kInTheMean = 0.01, kCable = 0.01, kEvent = 0.1;
 
 struct Case {
@@ -125,9 +124,10 @@ TEST(ReplayOnARoughFloor, LetsToedWheelsScrub) {
   s.effects = {effect("wheel_misalignment", {{"left_toe_rad", 0.015}})};
   const double smooth = distance(0);
   const double rough = distance(kRoughness);
-  std::cout << fmt::format("mean of the largest distances: {:.2f} mm of noise, toed {:.2f} mm on a smooth floor, {:.2f} "
-                           "mm on a rough one\n",
-                           1000 * noise, 1000 * smooth, 1000 * rough);
+  std::cout << fmt::format(
+      "mean of the largest distances: {:.2f} mm of noise, toed {:.2f} mm on a smooth floor, {:.2f} "
+      "mm on a rough one\n",
+      1000 * noise, 1000 * smooth, 1000 * rough);
   // Beyond the noise, which comes on top in squares.
   EXPECT_GT(smooth * smooth - noise * noise, 2 * (rough * rough - noise * noise));
 }
@@ -209,8 +209,10 @@ TEST(ReplayOfCommands, AStepToAndFroIsNoGain) {
 
 // Ramps of two samples, and turns that are over before they are fast, show less than was asked for.
 TEST(ReplayOfCommands, HabitsShowAsMuchOfADemandAsTheRecording) {
-  for (const auto& [name, factor] : {std::pair<const char*, double>{"over_acceleration", 5}, {"over_acceleration", 25},
-                                     {"fast_turning", 2}, {"fast_turning", 9}}) {
+  for (const auto& [name, factor] : {std::pair<const char*, double>{"over_acceleration", 5},
+                                     {"over_acceleration", 25},
+                                     {"fast_turning", 2},
+                                     {"fast_turning", 9}}) {
     Scenario s = squares(2, 2);
     s.effects = {effect(name, {{"factor", factor}})};
     const Recording recording = run_experiment(s, 0).recording;
@@ -228,7 +230,8 @@ TEST(ReplayOfCommands, HabitsShowAsMuchOfADemandAsTheRecording) {
   }
 }
 
-// Counters that are read rarely stand still in between, however coarse they are: nothing else makes moving wheels do so.
+// Counters that are read rarely stand still in between, however coarse they are: nothing else makes moving wheels do
+// so.
 TEST(ReplayOfCommands, RareSamplingShowsInCountsThatStandStill) {
   for (const double interval_s : {0.02, 0.0222, 0.0241, 0.05, 0.16}) {
     for (const double ticks : {0.0, 172.0}) {
@@ -240,7 +243,8 @@ TEST(ReplayOfCommands, RareSamplingShowsInCountsThatStandStill) {
       for (const RecordedRun& run : recording.runs) all.push_back(stretches(run, recording.robot));
       const double measured = measured_habits(recording, all, count_step(recording))[3];
       const double truth = std::log(interval_s * recording.encoder_rate_hz);
-      std::cout << fmt::format("{} s, {} ticks: log of the ratio {:.4f} of {:.4f}\n", interval_s, ticks, measured, truth);
+      std::cout << fmt::format("{} s, {} ticks: log of the ratio {:.4f} of {:.4f}\n", interval_s, ticks, measured,
+                               truth);
       EXPECT_NEAR(measured, truth, 0.015);
     }
   }
@@ -275,7 +279,8 @@ TEST(ReplayOfCommands, CoarseEncodersCountInSteps) {
 }
 
 TEST(ReplayOfCommands, CountsWhatTheEncodersCounted) {
-  for (const auto& effects : {std::vector<Effect>{}, {effect("encoder_missed_counts", {{"left_probability", 0.01}})},
+  for (const auto& effects : {std::vector<Effect>{},
+                              {effect("encoder_missed_counts", {{"left_probability", 0.01}})},
                               {effect("encoder_latency", {{"seconds", 0.1}})},
                               {effect("motor_response", {{"lag_s", 0.08}, {"gain_asymmetry", 0.02}})}}) {
     SCOPED_TRACE(effects.empty() ? "nominal" : effects[0].info->name);
@@ -344,8 +349,9 @@ TEST(ReplayOfATrack, MeetsAHoleWhereTheRobotWasSeen) {
   const double none = mean_jump_rad(seen, {});
   const double with_track = mean_jump_rad(seen, s.effects);
   const double without = mean_jump_rad(unseen, s.effects);
-  std::cout << fmt::format("mean of the largest jumps: no hole {:.2f} mrad, met by the replay {:.2f}, where seen {:.2f}\n",
-                           1000 * none, 1000 * without, 1000 * with_track);
+  std::cout << fmt::format(
+      "mean of the largest jumps: no hole {:.2f} mrad, met by the replay {:.2f}, where seen {:.2f}\n", 1000 * none,
+      1000 * without, 1000 * with_track);
   EXPECT_LT(with_track, 0.3 * none);
   EXPECT_LT(with_track, 0.5 * without);
 }

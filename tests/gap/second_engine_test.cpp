@@ -1,14 +1,13 @@
 // Recordings that another physics engine made: the names must be right; parameters and places are printed.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <iostream>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include "calibration/intake/intake.h"
-#include "gap/diagnosis_json.h"
+#include "gap/output/diagnosis_json.h"
 #include "tests/gap/patient.h"
 #include "tests/gap/recordings.h"
 
@@ -39,7 +38,8 @@ TEST(WhoseEngine, RunsWithoutAnEffectSayWhichDroveThem) {
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
     const Recording recording = read_recording(folder);
     const Replay replay(scenario_of(recording, folder.string()), recording);
-    const double gain = made_by_this_engine(Model(recording, testing::simulator(replay), Scatter{}));
+    const Campaign campaign = campaign_of(recording);
+    const double gain = made_by_this_engine(Model(campaign, testing::simulator(replay), Scatter{}));
     std::cout << fmt::format("another engine, {}: {:+.1f}\n", name, gain);
     EXPECT_LT(gain, 0) << name;
   }
@@ -47,7 +47,7 @@ TEST(WhoseEngine, RunsWithoutAnEffectSayWhichDroveThem) {
 
 struct Labelled {
   const char* folder;
-  const char* effect;     ///< "none" for no effect
+  const char* effect;  ///< "none" for no effect
   const char* parameter = "";
   double value = 0;
 };
@@ -62,7 +62,8 @@ TEST_P(SecondEngine, TheCauseIsNamed) {
   const Recording recording = read_recording(folder);
   intake::check_recording(recording, folder.string());
   const Replay replay(scenario_of(recording, folder.string()), recording);
-  const Model model(recording, testing::simulator(replay), Scatter{});
+  const Campaign campaign = campaign_of(recording);
+  const Model model(campaign, testing::simulator(replay), Scatter{});
   const Diagnosis d = diagnose(model, {}, Thresholds{}, [](const std::string&, double) {});
   const Cause& first = d.causes.front();
   std::string said = fmt::format("{}: {} (set {})", label.folder, first.name, fmt::join(d.set, ", "));
@@ -84,16 +85,17 @@ TEST_P(SecondEngine, TheCauseIsNamed) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Case, SecondEngine,
-    ::testing::Values(Labelled{"case-01", "none"}, Labelled{"case-02", "wheel_radius_difference", "relative", 0.002},
-                      Labelled{"case-03", "wheelbase", "relative", 0.01},
-                      Labelled{"case-05", "carpet_drift", "metres_per_metre", 0.004},
-                      Labelled{"case-06", "bump", "height_m", 0.006},
-                      Labelled{"case-09", "encoder_latency", "seconds", 0.1},
-                      Labelled{"case-10", "push", "impulse_newton_seconds", 22},
-                      Labelled{"case-11", "wheel_eccentricity", "right_m", 0.0015}, Labelled{"case-14", "none"}),
-    [](const auto& test) { return std::string(test.param.folder).replace(4, 1, "_"); });
+INSTANTIATE_TEST_SUITE_P(Case, SecondEngine,
+                         ::testing::Values(Labelled{"case-01", "none"},
+                                           Labelled{"case-02", "wheel_radius_difference", "relative", 0.002},
+                                           Labelled{"case-03", "wheelbase", "relative", 0.01},
+                                           Labelled{"case-05", "carpet_drift", "metres_per_metre", 0.004},
+                                           Labelled{"case-06", "bump", "height_m", 0.006},
+                                           Labelled{"case-09", "encoder_latency", "seconds", 0.1},
+                                           Labelled{"case-10", "push", "impulse_newton_seconds", 22},
+                                           Labelled{"case-11", "wheel_eccentricity", "right_m", 0.0015},
+                                           Labelled{"case-14", "none"}),
+                         [](const auto& test) { return std::string(test.param.folder).replace(4, 1, "_"); });
 
 }  // namespace
 }  // namespace umbsim::gap

@@ -1,6 +1,7 @@
 // Tracks that are kept: the same bytes, whatever happens to the files.
-#include "gap/signature_cache.h"
+#include "gap/replay/signature_cache.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,9 +14,7 @@
 #include <functional>
 #include <memory>
 
-#include <fmt/format.h>
-
-#include "gap/signature_files.h"
+#include "gap/replay/signature_files.h"
 #include "tests/gap/recordings.h"
 
 namespace umbsim::gap {

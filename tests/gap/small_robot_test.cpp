@@ -5,10 +5,10 @@
 #include <iostream>
 
 #include "calibration/intake/intake.h"
-#include "gap/clock.h"
-#include "gap/closure.h"
-#include "gap/diagnosis_json.h"
-#include "gap/drivable.h"
+#include "gap/answer/closure.h"
+#include "gap/evidence/drivable.h"
+#include "gap/noise/clock.h"
+#include "gap/output/diagnosis_json.h"
 #include "tests/gap/patient.h"
 
 namespace umbsim::gap {
@@ -74,11 +74,13 @@ TEST(SmallRobot, AStepTooFarIsTakenBack) {
     }
     return wide(run, effects, roughness);
   };
-  const Model model(recording, narrow, Scatter{});
+  const Campaign campaign = campaign_of(recording);
+  const Model model(campaign, narrow, Scatter{});
   std::vector<Family> wheelbase = plain_families(0.02, 2000);
   std::erase_if(wheelbase, [](const Family& f) { return f.effect != "wheelbase"; });
   ASSERT_EQ(wheelbase.size(), 1u);
-  EXPECT_THROW(model.density_at(wheelbase, Eigen::VectorXd::Constant(1, kTruth)), RunError) << "else this shows nothing";
+  EXPECT_THROW(model.density_at(wheelbase, Eigen::VectorXd::Constant(1, kTruth)), RunError)
+      << "else this shows nothing";
   const Fit fit = model.fit(wheelbase);
   std::cout << "stands up to " << kStandsUpTo << ", fitted " << fit.p[0] << "\n";
   EXPECT_GT(fit.p[0], 0.5 * kStandsUpTo);

@@ -1,10 +1,9 @@
-#include "gap/track_filter.h"
+#include "gap/noise/track_filter.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include <Eigen/Cholesky>
+#include <cmath>
 
 #include "core/random.h"
 

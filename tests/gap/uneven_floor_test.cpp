@@ -1,5 +1,5 @@
 // Uneven floors from passes in different directions, the floor of closure, and what the catalogue lacks.
-#include "gap/uneven_floor.h"
+#include "gap/evidence/uneven_floor.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,17 +7,18 @@
 #include <cmath>
 #include <iostream>
 
-#include "gap/command_features.h"
+#include "gap/answer/twin.h"
 #include "gap/diagnose.h"
-#include "gap/track_misfit.h"
+#include "gap/evidence/track_misfit.h"
+#include "gap/replay/command_features.h"
 #include "tests/gap/patient.h"
 
 namespace umbsim::gap {
 namespace {
 
 using testing::campaign;
-using testing::Patient;
 using testing::effect;
+using testing::Patient;
 
 /// With squares that begin a quarter turn further: they pass the legs of the others the other way.
 Recording turned_campaign(const std::vector<Effect>& hidden, std::uint64_t seed) {
@@ -98,7 +99,8 @@ TEST(TrackMisfit, NoiseAloneMakesWhatIsForetold) {
     noise.along_m2_pm = 0.5e-8;
     Scatter scatter;
     scatter.radius = 3e-5;
-    const Model model(recording, testing::simulator(replay), scatter, noise);
+    const Campaign joined = campaign_of(recording);
+    const Model model(joined, testing::simulator(replay), scatter, noise);
     measured += mean_square_error_m2(model, model.none().predicted.tracks);
     for (const auto& run : noise_misfits_m2(model, 100)) {
       for (const double square : run) foretold += square / 100 / double(recording.runs.size());
@@ -117,8 +119,8 @@ TEST(MotorScatter, GainsDifferFromRunToRun) {
   s.noise.motor_scatter = 0;
   const Recording exact = run_experiment(s, 0).recording;
   const auto gains = [](const Recording& r, std::size_t run) {
-    const CommandFeatures f = command_features(r.runs[run], counted_rad(r.runs[run], r.robot),
-                                               2 * M_PI / r.robot.ticks_per_revolution);
+    const CommandFeatures f =
+        command_features(r.runs[run], counted_rad(r.runs[run], r.robot), 2 * M_PI / r.robot.ticks_per_revolution);
     return Eigen::Vector2d(f.left_gain, f.right_gain);
   };
   double square = 0;

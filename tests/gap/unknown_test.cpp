@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <iostream>
 
-#include "gap/generic.h"
-#include "gap/plan_ties.h"
+#include "gap/evidence/generic.h"
+#include "gap/plan/ties.h"
 #include "tests/gap/patient.h"
 
 namespace umbsim::gap {

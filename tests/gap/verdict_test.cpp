@@ -1,12 +1,12 @@
 // What a diagnosis says in plain words, for every kind of answer.
-#include "gap/verdict.h"
+#include "gap/output/verdict.h"
 
 #include <gtest/gtest.h>
 
 #include <iostream>
 
 #include "core/wrapped_text.h"
-#include "gap/diagnosis_text.h"
+#include "gap/output/diagnosis_text.h"
 
 namespace umbsim::gap {
 namespace {

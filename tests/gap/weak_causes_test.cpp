@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "gap/diagnosis_json.h"
+#include "gap/output/diagnosis_json.h"
 #include "tests/gap/patient.h"
 
 namespace umbsim::gap {
@@ -98,7 +98,8 @@ TEST(WeakCause, AWheelbaseThatIsHardlyOff) {
   EXPECT_TRUE(holds(estimate(d, "relative"), 6e-4));
 }
 
-// Tyres that give way sideways as MuJoCo's do, 6 % more than this engine's: such a recording's turns may be off by more.
+// Tyres that give way sideways as MuJoCo's do, 6 % more than this engine's: such a recording's turns may be off by
+// more.
 TEST(WeakCause, AnotherEnginesTurnsAreNoWheelbase) {
   const Patient p(campaign({effect("tyre_creep", {{"across", 0.06}}), effect("wheelbase", {{"relative", 2e-4}})}, 78));
   const Diagnosis d = p.diagnosed({"tyre_creep"});
@@ -117,8 +118,8 @@ TEST(WeakCause, MotorsThatLagByFifteenMilliseconds) {
 // A hole alone is fitted so that it makes up for the radii where it can, and a wheel comes across it or not by
 // millimetres.
 TEST(WeakCause, RadiiBesideALift) {
-  const Effect lift = effect(
-      "wheel_lift", {{"x_m", 2 + 0.17 * std::cos(0.3)}, {"y_m", 0.17 * std::sin(0.3)}, {"length_m", 0.045}});
+  const Effect lift =
+      effect("wheel_lift", {{"x_m", 2 + 0.17 * std::cos(0.3)}, {"y_m", 0.17 * std::sin(0.3)}, {"length_m", 0.045}});
   const Patient p(campaign({effect("wheel_radius_scale", {{"relative", -1e-3}}), lift}, 81));
   const Diagnosis d = p.diagnosed();
   ASSERT_EQ(d.causes.front().name, "wheel_lift+wheel_radius_scale");

@@ -1,0 +1,46 @@
+#include "gap/answer/not_fitted.h"
+
+#include <algorithm>
+
+#include "gap/evidence/generic.h"
+#include "gap/evidence/uneven_floor.h"
+
+namespace umbsim::gap {
+namespace {
+
+constexpr double kMostOfCounts = 0.8;  // of what counts miss, for a demand to be the cause
+constexpr double kMostSteady = 0.3;    // of what anything could explain, that goes on at constant speed, the same
+
+}  // namespace
+
+std::optional<Fit> with_uneven_floor(const Model& model, const Fit& none, const Fit& best, double lack,
+                                     const Thresholds& t) {
+  // The same shifts of many passes pretend to be many numbers: an effect beside the floor has to explain a good share.
+  const double explained = best.log_evidence - none.log_evidence;
+  // A place is part of the floor, unless it is far more than the rest.
+  const double share = best.is_local() ? t.place_beside_floor : t.beside_floor;
+  const bool stays = explained > share * (explained + lack);
+  const Fit& beside = stays ? best : none;
+  const auto floor = find_uneven_floor(model, beside);
+  if (!floor) return {};
+  return on_uneven_floor(beside, *floor);
+}
+
+std::optional<Fit> plain_demand(const Model& model, const std::vector<Cause>& causes, const Fit& none,
+                                double generic_none, const Thresholds& t) {
+  // What goes wrong at constant speed is not its doing.
+  if (steady_gain(model, none) > kMostSteady * generic_none) return {};
+  const double before = model.counts_misfit(none.predicted);
+  std::optional<Fit> found;
+  double most = std::max(2 * t.plainly_shown, kMostOfCounts * before);
+  for (const Cause& c : causes) {
+    const bool demand = c.fit.families.size() == 1 && is_demand(c.fit.families.front().effect);
+    const double shown = demand ? before - model.counts_misfit(c.fit.predicted) : 0;
+    if (shown < most) continue;
+    found = c.fit;
+    most = shown;
+  }
+  return found;
+}
+
+}  // namespace umbsim::gap

@@ -1,0 +1,98 @@
+#include "gap/answer/ranking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "gap/answer/closure.h"
+#include "gap/search/addition.h"
+
+namespace umbsim::gap {
+namespace {
+
+constexpr double kAsGood = 1.001;      // held-out error of a combination, over that of something simpler
+constexpr double kLittle = 0.05;       // of what a combination explains: more than that no held-out runs outvote
+constexpr double kOverconfidence = 2;  // evidence is divided by this before it becomes probability
+constexpr double kEqual = 1;           // log evidence
+
+// Which numbers a fit leaves free.
+std::vector<std::string> free_numbers(const Fit& fit) {
+  std::vector<std::string> names;
+  for (const Family& f : fit.families) names.push_back(f.effect + f.variant);
+  return names;
+}
+
+}  // namespace
+
+std::vector<Cause> ranked(const std::vector<Fit>& fits, const Thresholds& t) {
+  std::map<std::string, Cause> best;
+  const double none = fits.front().log_evidence;
+  for (const Fit& fit : fits) {
+    const double score = fit.log_evidence - none - t.effect_cost * double(fit.families.size());
+    const auto [found, fresh] = best.try_emplace(fit.name(), Cause{fit.name(), fit, score, 0});
+    if (!fresh && score > found->second.score) found->second = Cause{fit.name(), fit, score, 0};
+  }
+  for (const Fit& fit : fits) {
+    Cause& cause = best.at(fit.name());
+    const bool near = fit.log_evidence > cause.fit.log_evidence - t.variant;
+    if (near && free_numbers(fit) != free_numbers(cause.fit)) cause.variants.push_back(fit);
+  }
+  std::vector<Cause> causes;
+  for (auto& [name, cause] : best) causes.push_back(std::move(cause));
+  std::stable_sort(causes.begin(), causes.end(), [](const Cause& a, const Cause& b) { return a.score > b.score; });
+  return causes;
+}
+
+void give_probabilities(std::vector<Cause>& causes) {
+  double best = -1e300;
+  for (const Cause& c : causes) best = std::max(best, c.score);
+  double sum = 0;
+  for (Cause& c : causes) sum += c.probability = std::exp((c.score - best) / kOverconfidence);
+  for (Cause& c : causes) c.probability /= sum;
+}
+
+std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, const Thresholds& t) {
+  const Fit none = fits.front();
+  std::stable_sort(fits.begin(), fits.end(),
+                   [](const Fit& a, const Fit& b) { return a.families.size() < b.families.size(); });
+  std::vector<Fit> kept;
+  for (Fit& fit : fits) {
+    const bool worthwhile = std::all_of(kept.begin(), kept.end(), [&](const Fit& simpler) {
+      if (simpler.families.empty()) return true;
+      const double extra = double(fit.families.size()) - double(simpler.families.size());
+      return extra <= 0 || pays(model, simpler, fit, addition_needed(model, simpler, none, t), extra);
+    });
+    if (worthwhile) kept.push_back(std::move(fit));
+  }
+  return kept;
+}
+
+void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const Thresholds& t) {
+  while (causes.front().fit.families.size() > 1) {
+    const Cause& front = causes.front();
+    const double counts = model.counts_misfit(front.fit.predicted);
+    const auto simpler = std::find_if(causes.begin(), causes.end(), [&](const Cause& c) {
+      return !c.fit.families.empty() && c.fit.families.size() < front.fit.families.size() &&
+             c.score > (1 - kLittle) * front.score && model.counts_misfit(c.fit.predicted) < counts + 2 * t.addition;
+    });
+    if (simpler == causes.end()) return;
+    const Closure with = held_out_closure(model, front.fit);
+    const Closure without = held_out_closure(model, simpler->fit);
+    if (!with.known || with.after_mm <= kAsGood * without.after_mm) return;
+    causes.erase(causes.begin());
+  }
+}
+
+void prefer_what_rolls(std::vector<Cause>& causes) {
+  const Cause& front = causes.front();
+  if (front.fit.only_rolls()) return;
+  const auto equal = std::find_if(causes.begin(), causes.end(), [&](const Cause& c) {
+    return c.fit.only_rolls() && c.fit.families.size() == front.fit.families.size() && c.score > front.score - kEqual;
+  });
+  if (equal == causes.end()) return;
+  equal->score = front.score;
+  std::rotate(causes.begin(), equal, equal + 1);
+}
+
+}  // namespace umbsim::gap

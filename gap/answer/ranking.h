@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "gap/answer/diagnosis.h"
+#include "gap/search/thresholds.h"
+
+namespace umbsim::gap {
+
+/// Combinations that bring too little over anything simpler are dropped: each further effect has to pay. The first fit
+/// is that of no effect.
+std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, const Thresholds& thresholds);
+
+/// The best fit of every name, best first, with its variants. The first fit is that of no effect.
+std::vector<Cause> ranked(const std::vector<Fit>& fits, const Thresholds& thresholds);
+
+/// A combination that predicts held-out runs worse than something simpler gives way to it, unless counts and commands
+/// tell it from that: they show what moves no track.
+void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const Thresholds& thresholds);
+
+/// Of explanations that are equally good, one goes first in which no contact takes part: it is the same on any floor.
+void prefer_what_rolls(std::vector<Cause>& causes);
+
+/// From their scores.
+void give_probabilities(std::vector<Cause>& causes);
+
+}  // namespace umbsim::gap

@@ -1,0 +1,67 @@
+#include "gap/answer/twin.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gap/answer/closure.h"
+#include "gap/answer/where.h"
+#include "gap/evidence/track_misfit.h"
+
+namespace umbsim::gap {
+
+std::vector<Effect> twin_effects(const Fit& fit) {
+  std::vector<Effect> effects;
+  Eigen::Index at = 0;
+  for (const Family& f : fit.families) {
+    const Eigen::VectorXd p = fit.p.segment(at, Eigen::Index(f.parameters.size()));
+    at += p.size();
+    if (f.shape_unknown) continue;
+    for (Effect& e : effects_of(f, p)) effects.push_back(std::move(e));
+  }
+  return effects;
+}
+
+void add_nothing(Closure& closure) {
+  closure.fraction = closure.ci95[0] = closure.ci95[1] = 0;
+  closure.after_mm = closure.before_mm;
+  closure.after_deg = closure.before_deg;
+  closure.worth.clear();
+}
+
+// What an explanation leaves may be an error of its model: of a contact's, which differs from engine to engine, or of a
+// tracker's whose frame and clock are free. A place or a moment mends a part of any misfit.
+bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure) {
+  if (!closure.known || fit.is_local()) return false;
+  if (!model.tracker_is_free()) return !fit.only_rolls() && closure.together().mm > closure.after_mm;
+  return closure.after_mm <= closure.most_noise_mm || closure.together().mm > closure.after_mm;
+}
+
+void keep_what_foretells(const Model& model, Fit& twin, Closure& closure) {
+  while (closure.known && closure.worth.size() > 1) {
+    const auto less = [](const Worth& a, const Worth& b) { return a.mm < b.mm; };
+    const auto least = std::min_element(closure.worth.begin(), closure.worth.end(), less);
+    if (least->mm >= 0) return;
+    const Fit fewer = model.without(twin, std::size_t(least - closure.worth.begin()));
+    const Closure with_fewer = held_out_closure(model, fewer);
+    if (!with_fewer.known || with_fewer.after_mm >= closure.after_mm) return;
+    twin = fewer;
+    closure = with_fewer;
+  }
+}
+
+Remainder remainder_of(const Model& model, const Screen& screen, const Fit& none, const Diagnosis& d, double leftover) {
+  Remainder rest;
+  const Fit& twin = d.twin_is_nominal() ? none : d.twin;
+  rest.mm = d.closure.known ? d.closure.after_mm : 1000 * std::sqrt(mean_square_error_m2(model, twin.predicted.tracks));
+  rest.share = d.closure.known ? std::max(0.0, 1 - d.closure.fraction) : d.twin_is_nominal() ? 1 : 0;
+  const auto unfitted = [](const Family& f) { return f.shape_unknown; };
+  const auto& families = d.explanation.families;
+  if (!d.unexplained || std::any_of(families.begin(), families.end(), unfitted)) return rest;
+  const std::vector<Screen::Candidate> more = screen.on_top_of(d.explanation);
+  if (more.empty() || more.front().gain <= 0) return rest;
+  rest.pattern = pattern_of(more.front().family.effect);
+  rest.in_catalogue = more.front().gain > 0.5 * leftover;
+  return rest;
+}
+
+}  // namespace umbsim::gap

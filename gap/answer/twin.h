@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "gap/answer/diagnosis.h"
+#include "gap/search/search.h"
+
+namespace umbsim::gap {
+
+/// The effects of a fit that can be simulated: without those of which only the strength is known.
+std::vector<Effect> twin_effects(const Fit& fit);
+
+/// The closure of a twin that is the scenario as it was.
+void add_nothing(Closure& closure);
+
+/// Whether an explanation takes more millimetres off held-out runs than it leaves, or all that is beyond noise, and
+/// what it leaves of the evidence may be an error of its model.
+bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure);
+
+/// Takes out the effects that foretell held-out runs worse than the others do alone; `closure` becomes that of what
+/// stays.
+void keep_what_foretells(const Model& model, Fit& twin, Closure& closure);
+
+/// What the twin leaves, and what the catalogue would make of it. `leftover`: log evidence for errors of no particular
+/// cause.
+Remainder remainder_of(const Model& model, const Screen& screen, const Fit& none, const Diagnosis& d, double leftover);
+
+}  // namespace umbsim::gap

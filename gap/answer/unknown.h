@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gap/answer/diagnosis.h"
+#include "gap/search/thresholds.h"
+
+namespace umbsim::gap {
+
+/// What a fit leaves that nothing of the catalogue explains, as log evidence.
+struct LeftUnexplained {
+  double steady = 0;  ///< errors of no particular cause, and counts that stray from commands
+  double lack = 0;    ///< misfit beyond noise, where the noise is known from repeated runs
+  double sudden = 0;  ///< a kick at a place or at a moment, beyond what a difference of engines makes
+  double late = 0;    ///< readings that do not go with the counts, the same
+  double all() const;
+};
+
+LeftUnexplained left_unexplained(const Model& model, const Fit& fit, const Thresholds& thresholds);
+
+/// Log evidence that an explanation may leave before it is called unknown, if it explains `explained`.
+double may_be_left(const Fit& fit, double explained, const Thresholds& thresholds);
+
+/// Log evidence, with prior costs, that effects need to be named where there might be no gap at all.
+double enough_to_detect(const std::vector<std::string>& effects, const Thresholds& thresholds);
+
+/// Whether what a fit leaves says that it is not the cause. `none`: what no effect leaves; `foretells`: it does
+/// held-out runs.
+bool is_unknown(const Fit& fit, double explained, bool foretells, const LeftUnexplained& left,
+                const LeftUnexplained& none, const Thresholds& thresholds);
+
+}  // namespace umbsim::gap

@@ -1,0 +1,290 @@
+#include "gap/evidence/model.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "gap/noise/counts_noise.h"
+#include "gap/noise/least_noise.h"
+#include "gap/noise/noise_floor.h"
+#include "gap/replay/run_groups.h"
+#include "recording/coarse_counts.h"
+
+namespace umbsim::gap {
+namespace {
+
+constexpr int kFeatureRows = 8;  // three of a run, and five of the recording, which stand with the first run
+constexpr int kLagRow = 2;
+
+bool acts_on_counts(const std::vector<Effect>& effects) {
+  return std::any_of(effects.begin(), effects.end(), [](const Effect& e) { return shows_in_counts(*e.info); });
+}
+
+}  // namespace
+
+std::vector<Effect> Fit::effects() const { return effects_at(p); }
+
+std::vector<Effect> Fit::effects_at(const Eigen::VectorXd& numbers, std::size_t without) const {
+  std::vector<Effect> all;
+  Eigen::Index at = 0;
+  for (std::size_t i = 0; i < families.size(); ++i) {
+    const Eigen::Index n = Eigen::Index(families[i].parameters.size());
+    if (i != without) {
+      for (Effect& e : effects_of(families[i], numbers.segment(at, n))) all.push_back(std::move(e));
+    }
+    at += n;
+  }
+  return all;
+}
+
+std::string Fit::name() const {
+  std::set<std::string> names;
+  for (const Family& f : families) names.insert(f.effect);
+  if (names.empty()) return "none";
+  return fmt::format("{}", fmt::join(names, "+"));
+}
+
+bool Fit::only_rolls() const {
+  return std::all_of(families.begin(), families.end(), [](const Family& f) { return gap::only_rolls(f.effect); });
+}
+
+bool Fit::is_local() const {
+  return std::any_of(families.begin(), families.end(), [](const Family& f) { return f.search_cost > 0; });
+}
+
+Model::Model(const Campaign& campaign, Simulator simulator, const Scatter& scatter,
+             const std::optional<NoiseModel>& known)
+    : campaign_(campaign), simulator_(std::move(simulator)), scatter_(scatter) {
+  const Recording& all = recording();
+  const Recording& lead = campaign.parts[leading_part(campaign)];
+  const double step = count_step(lead);
+  step_rad_ = step * 2 * M_PI / all.robot.ticks_per_revolution;
+  std::vector<std::vector<Stretch>> of_lead;
+  for (std::size_t r = 0; r < all.runs.size(); ++r) {
+    const RecordedRun& run = all.runs[r];
+    stretches_.push_back(umbsim::stretches(run, all.robot));
+    if (&campaign.of(r) == &lead) of_lead.push_back(stretches_.back());
+    measured_.counted.push_back(run.has_commands ? command_features(run, counted_rad(run, all.robot), step_rad_)
+                                                 : CommandFeatures{});
+  }
+  measured_.habits = measured_habits(lead, of_lead, step);
+  without_effects_ = predict({{}}).front();
+  habits_sd_ = habits_sd(lead, measured_.counted, without_effects_.counted);
+  nominal_ = beside(campaign, without_effects_.tracks);
+  scatter_.gain =
+      gain_scatter(grouped(all.runs, nominal_.origin), measured_.counted, without_effects_.counted, scatter.gain);
+  const double periods = std::exp(measured_.habits[3]);  // between two samples
+  for (std::size_t i = 0; i < campaign.parts.size(); ++i) {
+    const NominalReplay part = part_of(nominal_, campaign, i);
+    noises_.push_back(known ? NoiseEstimate{*known, false, {}}
+                            : estimate_noise(part, least_noise(part, periods / campaign.parts[i].encoder_rate_hz)));
+  }
+  replicated_ = std::all_of(noises_.begin(), noises_.end(), [](const NoiseEstimate& n) { return n.replicated; });
+  if (roughness_under({}) != 0) {
+    without_effects_ = predict({{}}).front();
+    nominal_ = beside(campaign, without_effects_.tracks);
+  }
+  std::vector<NoiseModel> of_runs;
+  for (std::size_t r = 0; r < all.runs.size(); ++r) of_runs.push_back(noise(r));
+  noise_floor_m_ = gap::noise_floor_m(nominal_, of_runs);
+  for (std::size_t r = 0; r < all.runs.size(); ++r) {
+    filters_.emplace_back(nominal_.tracks[r], nominal_.rolled_m[r], noise(r), nominal_.seen[r], nominal_.velocity[r]);
+  }
+  const Drive drive = [this](const std::vector<Effect>& effects) { return predict({effects}).front().tracks; };
+  nuisances_ = make_nuisances(nominal_, filters_, scatter_, drive, noise_floor_m_, kFeatureRows, kLagRow);
+  products_of_nuisances_ = products_of_nuisances();
+}
+
+std::string Model::condition(std::size_t run) const {
+  return std::to_string(campaign_.part_of[run]) + nominal_.conditions[run] + recording().runs[run].direction;
+}
+
+bool Model::tracker_is_free() const {
+  return std::any_of(campaign_.parts.begin(), campaign_.parts.end(), gap::tracker_is_free);
+}
+
+// Each grain of a floor makes wheels that scrub hold or give way. It moves no other robot's mean path.
+double Model::roughness_under(const std::vector<Effect>& effects) const {
+  if (!simulator_.scrubs || !simulator_.scrubs(effects)) return 0;
+  return roughness_m_per_sqrt_m(std::sqrt(noise().heading_rad2_pm), recording().robot.wheelbase_m);
+}
+
+std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& sets,
+                                      const std::vector<std::size_t>& some) const {
+  const std::size_t runs = recording().runs.size();
+  const std::vector<std::size_t> driven = some.empty() ? all_runs() : some;
+  std::vector<Predicted> all(sets.size());
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    all[i].tracks.resize(runs);
+    // Without effects on counts the nominal ones stand.
+    all[i].counted = without_effects_.counted;
+    all[i].counted.resize(runs);
+    all[i].habits = simulator_.habits ? simulator_.habits(sets[i]) : Habits{};
+  }
+  tbb::parallel_for(std::size_t(0), sets.size() * driven.size(), [&](std::size_t i) {
+    const std::size_t set = i / driven.size();
+    const std::vector<Effect>& effects = sets[set];
+    const std::size_t r = driven[i % driven.size()];
+    all[set].tracks[r] = simulate_run(r, effects);
+    const bool counts = recording().runs[r].has_commands && simulator_.commands;
+    if (counts && (effects.empty() || acts_on_counts(effects))) {
+      all[set].counted[r] = command_features(recording().runs[r], simulator_.commands(r, effects), step_rad_);
+    }
+  });
+  for (const std::size_t r : driven) simulated_s_ += double(sets.size()) * recording().runs[r].encoders.back().time_s;
+  return all;
+}
+
+// What differs between two of them, in standard deviations; of lags from run to run, or with what they share.
+Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const Predicted& b, double lag_sd_s) const {
+  Eigen::VectorXd rows = Eigen::VectorXd::Zero(kFeatureRows);
+  if (run == 0) {
+    for (std::size_t i = 0; i < a.habits.size(); ++i) {
+      rows[3 + Eigen::Index(i)] = (a.habits[i] - b.habits[i]) / habits_sd_[i];
+    }
+  }
+  const CommandFeatures& x = a.counted[run];
+  const CommandFeatures& y = b.counted[run];
+  if (!measured_.counted[run].known || !x.known || !y.known) return rows;
+  const double gain_sd = std::hypot(scatter_.gain, measured_.counted[run].gain_sd);
+  rows.head<3>() << (x.left_gain - y.left_gain) / gain_sd, (x.right_gain - y.right_gain) / gain_sd,
+      (x.lag_s - y.lag_s) / lag_sd_s;
+  return rows;
+}
+
+std::vector<Eigen::VectorXd> Model::residuals(const Predicted& predicted) const {
+  std::vector<Eigen::VectorXd> result(recording().runs.size());
+  tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t r) {
+    if (predicted.tracks[r].empty()) return;
+    const Eigen::VectorXd white = filters_[r].whiten(track_error(predicted.tracks[r], nominal_.truth[r]));
+    result[r].resize(white.size() + kFeatureRows);
+    result[r] << white, feature_rows(r, measured_, predicted, scatter_.run_lag_s);
+  });
+  return result;
+}
+
+double Model::counts_misfit(const Predicted& predicted) const {
+  double sum = 0;
+  for (std::size_t r = 0; r < recording().runs.size(); ++r)
+    sum += feature_rows(r, measured_, predicted, scatter_.counts_lag_s).squaredNorm();
+  return sum;
+}
+
+double Model::habits_misfit(const Predicted& predicted) const {
+  return feature_rows(0, measured_, predicted, scatter_.counts_lag_s).tail(kFeatureRows - 3).squaredNorm();
+}
+
+double Model::count_rows() const {
+  double rows = double(std::tuple_size<Habits>::value);
+  for (const CommandFeatures& counted : measured_.counted) rows += counted.known ? 3 : 0;
+  return rows;
+}
+
+std::vector<Eigen::MatrixXd> Model::columns(const Predicted& at, const std::vector<Predicted>& stepped,
+                                            const std::vector<double>& steps) const {
+  std::vector<Eigen::MatrixXd> result(recording().runs.size());
+  tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t r) {
+    const Eigen::Index n = 3 * Eigen::Index(filters_[r].samples());
+    Eigen::MatrixXd raw(n, Eigen::Index(stepped.size()));
+    result[r].resize(n + kFeatureRows, raw.cols());
+    for (std::size_t j = 0; j < stepped.size(); ++j) {
+      raw.col(Eigen::Index(j)) = track_error(at.tracks[r], stepped[j].tracks[r]) / steps[j];
+      result[r].col(Eigen::Index(j)).tail(kFeatureRows) =
+          feature_rows(r, stepped[j], at, scatter_.run_lag_s) / steps[j];
+    }
+    result[r].topRows(n) = filters_[r].whiten(raw);
+  });
+  return result;
+}
+
+// Products of the nuisances with each other are the same for every residual: most of the work, done once.
+std::vector<Eigen::MatrixXd> Model::products_of_nuisances() const {
+  std::vector<Eigen::MatrixXd> products(nuisances_.shared.size());
+  tbb::parallel_for(std::size_t(0), products.size(), [&](std::size_t r) {
+    Eigen::MatrixXd all(nuisances_.shared[r].rows(), nuisances() + nuisances_.own_sd[r].size());
+    all << nuisances_.shared[r], nuisances_.own[r];
+    products[r] = all.transpose() * all;
+  });
+  return products;
+}
+
+std::vector<RunGram> Model::grams(const std::vector<Eigen::VectorXd>& residual,
+                                  const std::vector<Eigen::MatrixXd>& columns,
+                                  const std::vector<LocalColumns>& local) const {
+  std::vector<RunGram> result(recording().runs.size());
+  const Eigen::Index shared = nuisances();
+  tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t r) {
+    if (residual[r].size() == 0) return;
+    const Eigen::Index own = nuisances_.own_sd[r].size();
+    const Eigen::Index effects = columns.empty() ? 0 : columns[r].cols();
+    const Eigen::Index more = local.empty() ? 0 : local[r].columns.cols();
+    const Eigen::Index kept = 1 + shared + effects;
+    Eigen::MatrixXd given(residual[r].size(), 1 + effects + more);
+    Eigen::VectorXd sd(own + more);
+    std::vector<Eigen::Index> at_given{0};
+    std::vector<Eigen::Index> at_nuisances;
+    given.col(0) = residual[r];
+    if (effects > 0) given.middleCols(1, effects) = columns[r];
+    sd.head(own) = nuisances_.own_sd[r];
+    if (more > 0) {
+      given.rightCols(more) = local[r].columns;
+      sd.tail(more) = local[r].prior_sd;
+    }
+    for (Eigen::Index i = 0; i < effects; ++i) at_given.push_back(1 + shared + i);
+    for (Eigen::Index i = 0; i < more; ++i) at_given.push_back(kept + own + i);
+    for (Eigen::Index i = 0; i < shared; ++i) at_nuisances.push_back(1 + i);
+    for (Eigen::Index i = 0; i < own; ++i) at_nuisances.push_back(kept + i);
+    Eigen::MatrixXd cross(given.cols(), shared + own);
+    cross << given.transpose() * nuisances_.shared[r], given.transpose() * nuisances_.own[r];
+    Eigen::MatrixXd products(kept + own + more, kept + own + more);
+    products(at_given, at_given) = given.transpose() * given;
+    products(at_given, at_nuisances) = cross;
+    products(at_nuisances, at_given) = cross.transpose();
+    products(at_nuisances, at_nuisances) = products_of_nuisances_[r];
+    result[r] = integrated_out(products, int(kept), sd);
+  });
+  return result;
+}
+
+std::vector<Eigen::VectorXd> Model::left_over(const Fit& fit) const {
+  std::vector<Eigen::VectorXd> left = residuals(fit.predicted);
+  for (std::size_t r = 0; r < left.size(); ++r) {
+    left[r] -= nuisances_.shared[r] * fit.nuisance;
+    // The run's own, most likely: ridge regression, with each column scaled by its prior.
+    const Eigen::MatrixXd own = nuisances_.own[r] * nuisances_.own_sd[r].asDiagonal();
+    Eigen::MatrixXd information = own.transpose() * own;
+    information.diagonal().array() += 1;
+    left[r] -= own * information.ldlt().solve(own.transpose() * left[r]);
+  }
+  return left;
+}
+
+double Model::rows() const {
+  double rows = 0;
+  for (const auto& run : nominal_.seen) rows += 3 * double(std::count(run.begin(), run.end(), true));
+  return rows;
+}
+
+std::vector<std::size_t> Model::all_runs() const {
+  std::vector<std::size_t> runs(recording().runs.size());
+  for (std::size_t r = 0; r < runs.size(); ++r) runs[r] = r;
+  return runs;
+}
+
+std::vector<std::size_t> Model::one_of_each() const {
+  std::vector<std::size_t> first;
+  std::set<std::string> seen;
+  for (const std::size_t r : all_runs()) {
+    if (seen.insert(std::to_string(campaign_.part_of[r]) + nominal_.conditions[r] + recording().runs[r].direction)
+            .second)
+      first.push_back(r);
+  }
+  return first;
+}
+
+}  // namespace umbsim::gap

@@ -1,0 +1,200 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gap/evidence/evidence.h"
+#include "gap/hypotheses/family.h"
+#include "gap/noise/noise_estimate.h"
+#include "gap/noise/nuisances.h"
+#include "gap/noise/track_filter.h"
+#include "gap/replay/command_features.h"
+#include "gap/replay/nominal_replay.h"
+#include "gap/replay/simulator.h"
+#include "recording/habits.h"
+#include "recording/recording.h"
+#include "recording/stretches.h"
+
+namespace umbsim::gap {
+
+/// What the simulator says of all runs under some effects.
+struct Predicted {
+  std::vector<std::vector<Pose2>> tracks;
+  std::vector<CommandFeatures> counted;  ///< counts against commands, of each run
+  Habits habits{};
+};
+
+/// Columns that belong to one run alone, and are integrated out.
+struct LocalColumns {
+  Eigen::MatrixXd columns;
+  Eigen::VectorXd prior_sd;
+};
+
+/// A fitted combination of effects.
+struct Fit {
+  std::vector<Family> families;
+  Eigen::VectorXd p;  ///< of all families in order
+  Eigen::MatrixXd covariance;
+  bool linear = true;       ///< the descent ended where the linear model has its optimum
+  double log_chance = 0;    ///< see Model::log_chance; part of the evidence
+  double log_evidence = 0;  ///< against no effect and the same nuisances
+  double held_out = 0;      ///< sum of log predictive densities of each condition given the others, the same
+  double residual = 0;      ///< squared whitened residual at the optimum
+  double misfit = 0;        ///< the same with what the nuisances cost: as many as there are rows, if the model is right
+  std::vector<RunGram> grams;            ///< residual, nuisances, derivatives at p
+  std::vector<Eigen::MatrixXd> columns;  ///< whitened derivatives at p, per run
+  Eigen::VectorXd nuisance;              ///< posterior mean of the shared nuisances
+  Predicted predicted;                   ///< at p
+
+  double size = 0;  ///< root mean square displacement that the last family adds to the tracks, over the noise floor
+
+  double seen = 0;  ///< root mean square of the same in the whitened tracks: what makes no way, but shakes, shows here
+
+  std::vector<Effect> effects() const;
+  /// The effects with other numbers; `without`: but for those of one family.
+  std::vector<Effect> effects_at(const Eigen::VectorXd& numbers, std::size_t without = std::size_t(-1)) const;
+  std::string name() const;  ///< effects joined by "+", in alphabetical order
+  bool only_rolls() const;   ///< all of its effects do
+  bool is_local() const;     ///< one of them is at a place or a moment
+};
+
+/// Whitened residuals near some numbers of effects: residual - columns (p' - p), per run.
+struct Linearisation {
+  Eigen::VectorXd p;
+  std::vector<Eigen::VectorXd> residual;
+  std::vector<Eigen::MatrixXd> columns;
+
+  /// Squares by which the residuals at `to` are not where the derivatives put them, over those of the step.
+  double share_missed(const Eigen::VectorXd& to, const std::vector<Eigen::VectorXd>& there) const;
+  /// Goes to `to`, and makes the derivatives along the step what it showed.
+  void learn(const Eigen::VectorXd& to, const std::vector<Eigen::VectorXd>& there, const Eigen::VectorXd& scale);
+};
+
+/// A recording seen through the simulator: residuals, nuisances, noise, and the evidence for any combination of
+/// effects.
+class Model {
+ public:
+  /// `simulator`: of the campaign's runs. `known`: the noise, where it is not to be estimated from the runs. The
+  /// campaign must outlive the model.
+  Model(const Campaign& campaign, Simulator simulator, const Scatter& scatter,
+        const std::optional<NoiseModel>& known = std::nullopt);
+
+  const Campaign& campaign() const { return campaign_; }
+  /// The robot and all runs.
+  const Recording& recording() const { return campaign_.all; }
+  const NominalReplay& nominal() const { return nominal_; }
+  /// Of the first recording.
+  const NoiseModel& noise() const { return noises_.front().noise; }
+  const NoiseModel& noise(std::size_t run) const { return noises_[campaign_.part_of[run]].noise; }
+  /// What is predicted as one when it is held out: runs of one recording, condition and direction.
+  std::string condition(std::size_t run) const;
+  bool tracker_is_free() const;  ///< of any recording
+  double noise_floor_m() const { return noise_floor_m_; }
+  bool replicated() const { return replicated_; }
+  const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }
+  const TrackFilter& filter(std::size_t run) const { return filters_[run]; }
+  const Habits& habits() const { return measured_.habits; }
+  /// Of the drive wheels; 0: not known.
+  double wheel_width_m() const { return simulator_.wheel_width_m; }
+  double mass_kg() const { return simulator_.mass_kg; }
+  int nuisances() const { return int(nuisance_sd().size()); }
+  /// Of another engine's recording, and what else it may be (Nuisances).
+  const Eigen::VectorXd& nuisance_sd() const { return nuisances_.shared_sds.front(); }
+  const std::vector<Eigen::VectorXd>& nuisance_sds() const { return nuisances_.shared_sds; }
+  const Eigen::VectorXd& unexplained_sd() const { return nuisances_.unexplained_sd; }
+  /// Whitened columns of a run's own nuisances; the first two are the radii of its wheels.
+  const Eigen::MatrixXd& own_columns(std::size_t run) const { return nuisances_.own[run]; }
+  /// Of a wheel's radius from run to run.
+  double radius_scatter(std::size_t run) const { return nuisances_.own_sd[run][0]; }
+  /// Friction at which the robot begins to slip on these runs; 0: at none.
+  double slips_at() const { return nuisances_.slips_at; }
+  std::vector<std::size_t> all_runs() const;
+  std::vector<std::size_t> one_of_each() const;  ///< the first run of every condition and direction
+  double rows() const;                           ///< numbers in all residuals that count
+  double simulated_s() const { return simulated_s_; }
+
+  /// All runs under each set of effects. `some`: only these runs are driven, the tracks of the others are empty.
+  std::vector<Predicted> predict(const std::vector<std::vector<Effect>>& sets,
+                                 const std::vector<std::size_t>& some = {}) const;
+
+  /// One run under effects.
+  std::vector<Pose2> simulate_run(std::size_t run, const std::vector<Effect>& effects) const {
+    return simulator_.ticks(run, effects, roughness_under(effects));
+  }
+
+  /// Differences between two predictions over a step, per run: whitened, counts against commands below.
+  std::vector<Eigen::MatrixXd> columns(const Predicted& at, const std::vector<Predicted>& stepped,
+                                       const std::vector<double>& steps) const;
+
+  /// Whitened residual of every run; empty where the run was not driven.
+  std::vector<Eigen::VectorXd> residuals(const Predicted& predicted) const;
+
+  /// Sum of squares, in standard deviations, by which a prediction misses counts against commands.
+  double counts_misfit(const Predicted& predicted) const;
+  double count_rows() const;
+  /// The part of it that is how the robot was driven and read (recording/habits.h).
+  double habits_misfit(const Predicted& predicted) const;
+
+  /// Grams of residual, nuisances and the given columns; further columns of each run alone are integrated out.
+  std::vector<RunGram> grams(const std::vector<Eigen::VectorXd>& residual, const std::vector<Eigen::MatrixXd>& columns,
+                             const std::vector<LocalColumns>& local = {}) const;
+
+  /// What a fit leaves of the whitened residual of each run, after the nuisances: those shared, and each run's own.
+  std::vector<Eigen::VectorXd> left_over(const Fit& fit) const;
+
+  /// No effect at all.
+  Fit none() const;
+
+  /// Log likelihood that the runs scatter as little as they do, under effects that act by chance, against the noise as
+  /// it was estimated: 0 or less. 0 where no runs were repeated.
+  double log_chance(const std::vector<Effect>& effects) const;
+
+  /// Log density of the data with the families' numbers held at p, against none: how well a start would do. `runs`:
+  /// that count, and are driven; empty: all.
+  double density_at(const std::vector<Family>& families, const Eigen::VectorXd& p,
+                    const std::vector<std::size_t>& runs = {}) const;
+
+  /// Fits the free numbers of the families together, in the simulator. `start`: empty for the families' own. `runs`:
+  /// that count; empty: all. `known`: derivatives that were taken elsewhere, and are used as long as they foretell
+  /// where a step leads.
+  Fit fit(const std::vector<Family>& families, const Eigen::VectorXd& start = {}, int rounds = 7,
+          const std::vector<std::size_t>& runs = {}, const std::optional<Linearisation>& known = std::nullopt) const;
+
+  /// The fit of all but one of a fit's families, from their numbers there.
+  Fit without(const Fit& fit, std::size_t family) const;
+
+  /// The numbers of a fit's effects taken from a subset of the runs: by the fit's derivatives, and where the simulator
+  /// bends by fitting again from there.
+  Eigen::VectorXd numbers_on(const Fit& fit, const std::vector<std::size_t>& runs) const;
+
+  /// Log evidence over the runs of a subset, of a fit's linearised model.
+  double log_evidence(const Fit& fit, const std::vector<std::size_t>& runs) const;
+
+ private:
+  std::vector<Eigen::MatrixXd> products_of_nuisances() const;
+  double roughness_under(const std::vector<Effect>& effects) const;
+  Eigen::VectorXd feature_rows(std::size_t run, const Predicted& a, const Predicted& b, double lag_sd_s) const;
+  Linearisation linearised(const Fit& fit) const;
+  void score(Fit& fit) const;
+
+  const Campaign& campaign_;
+  Simulator simulator_;
+  Scatter scatter_;
+  double step_rad_ = 0;  // between two counts, as wide as they really are
+  std::vector<std::vector<Stretch>> stretches_;
+  Predicted measured_;  // what was recorded, without tracks
+  Predicted without_effects_;
+  Habits habits_sd_{};  // with which they are measured
+  NominalReplay nominal_;
+  std::vector<NoiseEstimate> noises_;  // of each recording
+  bool replicated_ = false;            // each of them from repeated runs
+  double noise_floor_m_ = 0;
+  std::vector<TrackFilter> filters_;
+  Nuisances nuisances_;
+  std::vector<Eigen::MatrixXd> products_of_nuisances_;  ///< by run: shared, then the run's own
+  mutable double simulated_s_ = 0;
+};
+
+}  // namespace umbsim::gap

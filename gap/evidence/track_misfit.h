@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "gap/evidence/model.h"
+
+namespace umbsim::gap {
+
+/// Mean square of the position error along the run, and the heading error at its end, after the best start pose.
+struct TrackMisfit {
+  double mean_square_m2 = 0;
+  double end_rad = 0;
+};
+
+/// `error`: of a predicted track against the recorded one, as track_error() gives it.
+TrackMisfit aligned_misfit(const Model& model, std::size_t run, const Eigen::VectorXd& error);
+
+/// Of a simulated track against the recorded one.
+TrackMisfit aligned_misfit(const Model& model, std::size_t run, const std::vector<Pose2>& predicted);
+
+/// Mean square position error of simulated tracks against the recorded ones, start poses aligned, m^2.
+double mean_square_error_m2(const Model& model, const std::vector<std::vector<Pose2>>& tracks);
+
+/// Mean square position errors that noise alone makes where the prediction is right: heading and distance that walk,
+/// wheels whose radii differ from run to run, the tracker. Drawn from the noise model; outer index: run, m^2.
+std::vector<std::vector<double>> noise_misfits_m2(const Model& model, int draws);
+
+}  // namespace umbsim::gap

@@ -1,0 +1,172 @@
+#include "gap/noise/nuisances.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gap/noise/noise_floor.h"
+#include "gap/replay/run_groups.h"
+
+namespace umbsim::gap {
+namespace {
+
+constexpr int kCommon = 3;  // creep, slip, lag: of the robot
+constexpr int kCreepColumn = 0;
+constexpr int kSlipColumn = 1;
+constexpr int kLagColumn = 2;
+constexpr int kPerTracker = 4;  // marker (2), clock, frame: of each recording
+constexpr int kPerGroup = 5;    // legs, turns in place, rolling turns, heading and sideways along legs
+constexpr int kOwn = 4;         // radii (2), clock, its rate
+constexpr double kCreep = 0.01;
+constexpr double kUnexplained = 20;  // times the scatter between engines
+
+// Columns that all runs share, in this order: of the robot, of each group of runs, of each recording's tracker.
+struct Layout {
+  explicit Layout(const NominalReplay& nominal) : groups(grouped(nominal.recording->runs, nominal.origin)) {
+    for (const Recording* r : nominal.origin) {
+      if (trackers.empty() || trackers.back() != r) trackers.push_back(r);
+      tracker_of.push_back(trackers.size() - 1);
+    }
+  }
+  Eigen::Index group(std::size_t g) const { return kCommon + kPerGroup * Eigen::Index(g); }
+  Eigen::Index tracker(std::size_t t) const { return group(groups.rolling.size()) + kPerTracker * Eigen::Index(t); }
+  Eigen::Index size() const { return tracker(trackers.size()); }
+
+  RunGroups groups;
+  std::vector<const Recording*> trackers;
+  std::vector<std::size_t> tracker_of;  // of each run
+};
+
+Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
+  Eigen::VectorXd sd(layout.size());
+  sd.head(kCommon) << s.creep_across, 1, s.lag_s;
+  for (std::size_t t = 0; t < layout.trackers.size(); ++t) {
+    sd.segment(layout.tracker(t), kPerTracker) << s.marker_m, s.marker_m, s.clock_s,
+        tracker_is_free(*layout.trackers[t]) ? s.frame_rad : 0;
+  }
+  const RunGroups& groups = layout.groups;
+  for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
+    sd.segment(layout.group(g), kPerGroup) << (groups.rolling[g] ? s.arc_leg_scale : s.leg_scale), s.turn_scale,
+        s.arc_scale, s.heading_rad_pm, s.lateral;
+  }
+  return sd;
+}
+
+// The marker, the clock and the frame stay what they are, whoever made the recording.
+Eigen::VectorXd of_same_engine(Eigen::VectorXd sd, const Layout& layout, const Scatter& s) {
+  sd.head(layout.tracker(0)) *= s.same_engine;
+  return sd;
+}
+
+struct LittleSlip {
+  std::vector<std::vector<Pose2>> tracks;
+  double friction = 0;
+};
+
+// Tracks with the floor just so slippery that the robot moves by `wanted_m`: engines, and tyres, differ in when exactly
+// they let go under a jolt. Empty if no floor is that slippery.
+LittleSlip little_slip(const NominalReplay& nominal, const Drive& drive, double wanted_m) {
+  Effect slippery = neutral_effect(find_effect("slippery_floor"));
+  double grips = 0.8;
+  double slips = 0.02;
+  LittleSlip little;
+  for (int i = 0; i < 7; ++i) {
+    const double friction = std::sqrt(grips * slips);
+    slippery.values.numbers = {friction};
+    auto trial = drive({slippery});
+    if (displacement_m(trial, nominal.tracks) > wanted_m) {
+      slips = friction;
+      little = {std::move(trial), friction};
+    } else {
+      grips = friction;
+    }
+  }
+  return little;
+}
+
+std::vector<Kicks3> group_kicks(const NominalReplay& nominal, std::size_t run) {
+  const double b_m = nominal.recording->robot.wheelbase_m;
+  std::vector<Kicks3> kicks(kPerGroup, Kicks3(nominal.truth[run].size(), Eigen::Vector3d::Zero()));
+  for (std::size_t k = 1; k < kicks[0].size(); ++k) {
+    const auto& way = nominal.wheels_m[run][k];
+    const double ds_m = (way[0] + way[1]) / 2;
+    const double turn_rad = (way[1] - way[0]) / b_m;
+    const bool arc = std::abs(ds_m) > 0.3 * b_m / 2 * std::abs(turn_rad);
+    kicks[0][k][0] = ds_m;
+    kicks[arc ? 2 : 1][k][2] = turn_rad;
+    kicks[3][k][2] = std::abs(ds_m);
+    kicks[4][k][1] = ds_m;
+  }
+  return kicks;
+}
+
+Eigen::MatrixXd own_columns(const NominalReplay& nominal, const TrackFilter& filter, std::size_t run) {
+  Eigen::MatrixXd raw(3 * Eigen::Index(filter.samples()), kOwn);
+  for (int wheel = 0; wheel < 2; ++wheel) raw.col(wheel) = filter.propagate(radius_kicks(nominal, run, wheel));
+  const auto& truth = nominal.recording->runs[run].truth;
+  const double middle_s = (truth.front().time_s + truth.back().time_s) / 2;
+  for (std::size_t k = 0; k < filter.samples(); ++k) {
+    raw.block<3, 1>(3 * Eigen::Index(k), 2) = nominal.velocity[run][k];
+    raw.block<3, 1>(3 * Eigen::Index(k), 3) = (truth[k].time_s - middle_s) * nominal.velocity[run][k];
+  }
+  return raw;
+}
+
+Eigen::MatrixXd whitened(const TrackFilter& filter, const Eigen::MatrixXd& raw, int more_rows) {
+  Eigen::MatrixXd white = Eigen::MatrixXd::Zero(raw.rows() + more_rows, raw.cols());
+  white.topRows(raw.rows()) = filter.whiten(raw);
+  return white;
+}
+
+}  // namespace
+
+bool tracker_is_free(const Recording& recording) { return recording.truth_heading_sd_rad > 0.001; }
+
+Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFilter>& filters, const Scatter& scatter,
+                         const Drive& drive, double floor_m, int more_rows, int lag_row) {
+  const Layout layout(nominal);
+  const RunGroups& groups = layout.groups;
+  const bool any_free = std::any_of(layout.trackers.begin(), layout.trackers.end(),
+                                    [](const Recording* r) { return tracker_is_free(*r); });
+  Nuisances n;
+  n.shared_sds = {shared_sd(layout, scatter)};
+  n.unexplained_sd = Eigen::VectorXd::Zero(layout.size());
+  if (!any_free) n.shared_sds.push_back(of_same_engine(n.shared_sds.front(), layout, scatter));
+  for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
+    const Eigen::Index first = layout.group(g);
+    // Between turns in place only the moments at which a turn begins and ends roll in an arc: engines differ there.
+    for (int i = 0; i < kPerGroup; ++i) {
+      if (i != 2 || groups.rolling[g]) n.unexplained_sd[first + i] = kUnexplained * n.shared_sds.front()[first + i];
+    }
+  }
+  // No two engines, and no real tyre, grip sideways alike: the creep of the tyres is a nuisance up to its usual size.
+  Effect creep = neutral_effect(find_effect("tyre_creep"));
+  creep.values.numbers = {0, kCreep};
+  const auto crept = drive({creep});
+  const auto [slipped, friction] = little_slip(nominal, drive, scatter.slip_share * floor_m);
+  n.slips_at = friction;
+  for (std::size_t r = 0; r < nominal.runs(); ++r) {
+    const Eigen::Index samples = Eigen::Index(filters[r].samples());
+    Eigen::MatrixXd raw = Eigen::MatrixXd::Zero(3 * samples, layout.size());
+    const Eigen::Index tracker = layout.tracker(layout.tracker_of[r]);
+    for (Eigen::Index k = 0; k < samples; ++k) {
+      raw(3 * k, tracker) = raw(3 * k + 1, tracker + 1) = raw(3 * k + 2, tracker + 3) = 1;
+      raw.block<3, 1>(3 * k, tracker + 2) = nominal.velocity[r][std::size_t(k)];
+    }
+    raw.col(kCreepColumn) = track_error(nominal.tracks[r], crept[r]) / kCreep;
+    if (!slipped.empty()) raw.col(kSlipColumn) = track_error(nominal.tracks[r], slipped[r]);
+    const auto kicks = group_kicks(nominal, r);
+    const Eigen::Index first = layout.group(groups.group_of[r]);
+    for (int i = 0; i < kPerGroup; ++i) raw.col(first + i) = filters[r].propagate(kicks[std::size_t(i)]);
+    n.shared.push_back(whitened(filters[r], raw, more_rows));
+    if (nominal.recording->runs[r].has_commands)
+      n.shared.back()(3 * samples + lag_row, kLagColumn) = 1 / scatter.run_lag_s;
+    const bool is_free = tracker_is_free(*nominal.origin[r]);
+    const double radius = is_free ? scatter.real_radius : scatter.radius;
+    n.own_sd.push_back(
+        Eigen::Vector4d(radius, radius, is_free ? scatter.run_clock_s : 0, is_free ? scatter.clock_rate : 0));
+    n.own.push_back(whitened(filters[r], own_columns(nominal, filters[r], r), more_rows));
+  }
+  return n;
+}
+
+}  // namespace umbsim::gap

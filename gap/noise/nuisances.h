@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "gap/noise/track_filter.h"
+#include "gap/replay/nominal_replay.h"
+
+namespace umbsim::gap {
+
+/// How far one engine's contact model may be from another's, and a robot from its own runs: standard deviations of
+/// scatter that no effect of the catalogue is needed for.
+struct Scatter {
+  double radius = 6e-5;          ///< of a wheel's radius from run to run
+  double real_radius = 2e-4;     ///< the same where the tracker is free: a real robot's tyres warm and wear
+  double leg_scale = 8e-5;       ///< of distance, per driving condition
+  double arc_leg_scale = 3e-4;   ///< the same between rolling turns
+  double turn_scale = 3e-4;      ///< of turns in place
+  double arc_scale = 1.5e-3;     ///< of rolling turns
+  double heading_rad_pm = 5e-5;  ///< along legs
+  double lateral = 3e-5;         ///< along legs
+  double marker_m = 0.003;       ///< of the tracked point from the axle's middle
+  double frame_rad = 0.02;       ///< of the tracker's heading from the drive axis, where it is free
+  double clock_s = 0.05;         ///< between encoders and tracker
+  double run_clock_s = 0.02;     ///< the same from run to run, where the tracker is free
+  double clock_rate = 1e-3;      ///< of one clock against the other, from run to run, where the tracker is free
+  double creep_across = 0.03;    ///< sideways creep of the tyres
+  double slip_share = 0.2;       ///< displacement by slip under jolts, in noise floors
+  double gain = 4e-4;            ///< of counts over commands
+  double lag_s = 0.006;          ///< of counts behind commands, alike in all runs
+  double run_lag_s = 0.003;      ///< the same from run to run
+  double counts_lag_s = 0.010;   ///< the same of any run, where counts alone are judged
+  double same_engine = 0.1;      ///< share of what engines differ by that is left where both are the same
+};
+
+/// Columns that are fitted always and credited to nobody. Per run, whitened; outer index: run.
+struct Nuisances {
+  /// If another engine, or a robot, made the recording; and if this one did, which runs show by how little they stray.
+  std::vector<Eigen::VectorXd> shared_sds;
+  Eigen::VectorXd unexplained_sd;       ///< of the same numbers, if errors of no particular cause stood behind them
+  std::vector<Eigen::MatrixXd> shared;  ///< one number for all runs that it acts in
+  std::vector<Eigen::VectorXd> own_sd;
+  std::vector<Eigen::MatrixXd> own;  ///< numbers of its own for each run
+  double slips_at = 0;               ///< friction of the floor at which the wheels begin to let go; 0: at none
+};
+
+/// Tracks of all runs in the simulator under effects.
+using Drive = std::function<std::vector<std::vector<Pose2>>(const std::vector<Effect>&)>;
+
+/// A real robot's tracker is mounted by hand and has a clock of its own: its frame and clock are free unless it knows
+/// headings as well as a simulated one.
+bool tracker_is_free(const Recording& recording);
+
+/// `floor_m`: the noise floor, for how much slip is nobody's. `more_rows`: below each column, zeros but for the lag of
+/// counts behind commands in the row `lag_row` of these.
+Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFilter>& filters, const Scatter& scatter,
+                         const Drive& drive, double floor_m, int more_rows, int lag_row);
+
+}  // namespace umbsim::gap

@@ -1,0 +1,113 @@
+#include "gap/noise/track_filter.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+namespace umbsim::gap {
+namespace {
+
+// Standard deviations of the start pose before anything is seen: the tracker's frame and the start are free.
+constexpr double kStart_m = 0.02;
+constexpr double kStart_rad = 0.2;
+
+}  // namespace
+
+double roughness_m_per_sqrt_m(double heading_walk_rad_per_sqrt_m, double wheelbase_m) {
+  return heading_walk_rad_per_sqrt_m * wheelbase_m / std::sqrt(2.0);
+}
+
+Eigen::Matrix3d error_transition(const Pose2& u) {
+  const double c = std::cos(u.theta_rad);
+  const double s = std::sin(u.theta_rad);
+  Eigen::Matrix3d T;
+  T << c, s, -c * u.y_m + s * u.x_m,  //
+      -s, c, s * u.y_m + c * u.x_m,   //
+      0, 0, 1;
+  return T;
+}
+
+Eigen::VectorXd track_error(const std::vector<Pose2>& predicted, const std::vector<Pose2>& actual) {
+  const std::size_t n = std::min(predicted.size(), actual.size());
+  Eigen::VectorXd error(3 * n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Pose2 e = inverse(predicted[k]) * actual[k];
+    error.segment<3>(3 * Eigen::Index(k)) << e.x_m, e.y_m, e.theta_rad;
+  }
+  return error;
+}
+
+TrackFilter::TrackFilter(const std::vector<Pose2>& path, const std::vector<double>& rolled_m, const NoiseModel& noise,
+                         const std::vector<bool>& observed, const std::vector<Eigen::Vector3d>& velocity) {
+  const double p = noise.position_sd_m * noise.position_sd_m;
+  const Eigen::Matrix3d R = Eigen::Vector3d(p, p, noise.heading_sd_rad * noise.heading_sd_rad).asDiagonal();
+  Eigen::Matrix3d P = Eigen::Vector3d(kStart_m * kStart_m, kStart_m * kStart_m, kStart_rad * kStart_rad).asDiagonal();
+  steps_.reserve(path.size());
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    Step step;
+    step.transition.setIdentity();
+    if (k > 0) {
+      const Pose2 u = inverse(path[k - 1]) * path[k];
+      step.transition = error_transition(u);
+      P = (step.transition * P * step.transition.transpose()).eval();
+      P.diagonal() += rolled_m[k] * Eigen::Vector3d(noise.along_m2_pm, noise.across_m2_pm, noise.heading_rad2_pm);
+    }
+    if (!observed.empty() && !observed[k]) {
+      step.gain.setZero();
+      step.whitener.setZero();
+      steps_.push_back(step);
+      continue;
+    }
+    Eigen::Matrix3d S = P + R;
+    if (!velocity.empty()) S += noise.clock_s * noise.clock_s * velocity[k] * velocity[k].transpose();
+    const Eigen::LLT<Eigen::Matrix3d> llt(S);
+    step.gain = llt.solve(P).transpose();
+    step.whitener = llt.matrixL().solve(Eigen::Matrix3d::Identity());
+    log_det_ -= 2 * step.whitener.diagonal().array().log().sum();
+    P = ((Eigen::Matrix3d::Identity() - step.gain) * P).eval();
+    P = (0.5 * (P + P.transpose())).eval();
+    steps_.push_back(step);
+  }
+}
+
+TrackColumns TrackFilter::whiten(const TrackColumns& columns) const {
+  TrackColumns white(columns.rows(), columns.cols());
+  Eigen::Matrix<double, 3, Eigen::Dynamic> state(3, columns.cols());
+  Eigen::Matrix<double, 3, Eigen::Dynamic> innovation(3, columns.cols());
+  state.setZero();
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    const Step& s = steps_[k];
+    state = (s.transition * state).eval();
+    innovation = columns.middleRows<3>(3 * Eigen::Index(k)) - state;
+    white.middleRows<3>(3 * Eigen::Index(k)).noalias() = s.whitener * innovation;
+    state.noalias() += s.gain * innovation;
+  }
+  return white;
+}
+
+TrackFilter::KickProducts TrackFilter::kick_products(const Eigen::VectorXd& white) const {
+  KickProducts p{std::vector<Eigen::Vector3d>(steps_.size()), std::vector<Eigen::Matrix3d>(steps_.size())};
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
+  for (std::size_t k = steps_.size(); k-- > 0;) {
+    const Step& s = steps_[k];
+    Eigen::Matrix3d onward = Eigen::Matrix3d::Zero();
+    if (k + 1 < steps_.size()) onward = steps_[k + 1].transition * (Eigen::Matrix3d::Identity() - s.gain);
+    b = (s.whitener.transpose() * white.segment<3>(3 * Eigen::Index(k)) + onward.transpose() * b).eval();
+    M = (s.whitener.transpose() * s.whitener + onward.transpose() * M * onward).eval();
+    p.with_column[k] = b;
+    p.with_itself[k] = M;
+  }
+  return p;
+}
+
+Eigen::VectorXd TrackFilter::propagate(const std::vector<Eigen::Vector3d>& kicks) const {
+  Eigen::VectorXd track(3 * steps_.size());
+  Eigen::Vector3d error = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    error = (steps_[k].transition * error + kicks[k]).eval();
+    track.segment<3>(3 * Eigen::Index(k)) = error;
+  }
+  return track;
+}
+
+}  // namespace umbsim::gap

@@ -1,0 +1,106 @@
+#include "gap/plan/effects.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gap/evidence/drivable.h"
+
+namespace umbsim::gap {
+namespace {
+
+constexpr double kWeakestShare = 1.0 / 300;  // of the plausible maximum: acts less than any noise
+
+const EffectParameter* parameter_of(const Family& family) {
+  for (const EffectParameter& p : find_effect(family.effect).parameters) {
+    if (p.name == family.parameters.front().name) return &p;
+  }
+  return nullptr;
+}
+
+// What acts the more the smaller it is.
+bool acts_when_small(const std::string& parameter) {
+  return parameter == "friction" || parameter == "ticks_per_revolution";
+}
+
+PlannedFamily planned(Family family) {
+  PlannedFamily p;
+  p.by_run_number = family.effect == "wear";
+  // Softness of the tyres goes with a toe, it is not what is asked about.
+  p.happens = !family.with;
+  if (const EffectParameter* strength = parameter_of(family)) {
+    if (acts_when_small(strength->name)) {
+      p.weak = 0.8;
+      p.strong = std::max(strength->plausible_min, 0.01);
+    } else {
+      p.strong = strength->plausible_max;
+      p.weak = p.strong * kWeakestShare;
+    }
+  }
+  p.family = std::move(family);
+  return p;
+}
+
+// A moment of the first run: on a leg (the last one if there are fewer), at a share of its time.
+struct OnLeg {
+  int leg = 1;
+  double seconds_into_leg = 0;
+  Pose2 X_WB;
+};
+
+OnLeg on_leg(const Model& model, int wanted_leg, double share) {
+  OnLeg at;
+  for (const Stretch& s : model.stretches(0)) {
+    if (s.kind != Stretch::Kind::leg || s.leg > wanted_leg) continue;
+    at.leg = s.leg;
+    at.seconds_into_leg = share * (s.end_s - s.start_s);
+    const auto& truth = model.recording().runs[0].truth;
+    std::size_t k = 0;
+    while (k + 1 < truth.size() && truth[k].time_s < s.start_s + at.seconds_into_leg) ++k;
+    at.X_WB = model.nominal().tracks[0][k];
+  }
+  return at;
+}
+
+}  // namespace
+
+std::vector<PlannedFamily> planned_families(const Model& model, const std::set<std::string>& wanted) {
+  const Recording& recording = model.recording();
+  std::vector<PlannedFamily> all;
+  std::vector<Family> plain =
+      plain_families(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution, model.wheel_width_m());
+  std::erase_if(plain, [&](const Family& f) { return wanted.count(f.effect) == 0; });
+  for (Family& f : drivable(model, std::move(plain))) all.push_back(planned(std::move(f)));
+  const Pose2 right_wheel{0, -recording.robot.wheelbase_m / 2, 0};
+  const Pose2 cable = on_leg(model, 1, 0.5).X_WB * right_wheel;
+  // Grip is needed where wheels speed up, stop and turn, not in between.
+  const Pose2 corner = on_leg(model, 1, 1).X_WB * right_wheel;
+  for (Family f : {bump_family(cable.x_m, cable.y_m, cable.theta_rad), lift_family(corner.x_m, corner.y_m),
+                   patch_family(corner.x_m, corner.y_m)}) {
+    all.push_back(planned(std::move(f)));
+  }
+  const OnLeg push = on_leg(model, 2, 0.5);
+  all.push_back(planned(push_family(recording.runs[0].id, push.leg, push.seconds_into_leg, model.mass_kg())));
+  all.back().in_first_run = true;
+  std::erase_if(all, [&](const PlannedFamily& p) { return wanted.count(p.family.effect) == 0; });
+  return all;
+}
+
+std::vector<std::string> without_family(const std::set<std::string>& wanted) {
+  std::set<std::string> missing = wanted;
+  for (const Family& f : plain_families(0.02, 2000)) missing.erase(f.effect);
+  for (const char* local : {"bump", "wheel_lift", "slippery_patch", "push"}) missing.erase(local);
+  return {missing.begin(), missing.end()};
+}
+
+bool plausible(const Effect& effect) {
+  for (std::size_t i = 0; i < effect.info->parameters.size(); ++i) {
+    const EffectParameter& p = effect.info->parameters[i];
+    const double value = effect.values.numbers[i];
+    if (value == p.neutral) continue;
+    if (p.plausible_max > 0 && std::abs(value) > p.plausible_max) return false;
+    if (acts_when_small(p.name) && value < p.plausible_min) return false;
+  }
+  return true;
+}
+
+}  // namespace umbsim::gap

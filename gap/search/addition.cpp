@@ -1,0 +1,140 @@
+#include "gap/search/addition.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace umbsim::gap {
+
+namespace {
+
+// Variance by which an effect's signature may be off, another engine's robot for one: of the whole signature, for
+// nuisances like a clock's offset that take up most of it do not take up its error.
+constexpr double kSignatureError = 3e-4;
+constexpr double kMost = 0.5;          // of the misfit
+constexpr double kMostOfReading = 16;  // squared standard deviations
+constexpr double kPlain = 2.5;         // times what counts must show
+
+// Toed wheels scrub, and how tyres give way to it is fitted with two numbers only: of what they explain, this share may
+// be another tyre's.
+constexpr double kScrubShare = 0.03;
+
+// What an error of one effect's model looks like: a further effect of that kind must bring this share of what the fit
+// brought.
+struct Lookalikes {
+  std::set<std::string> of;
+  std::set<std::string> effects;
+  double share;
+};
+
+const std::vector<Lookalikes>& lookalikes() {
+  static const std::vector<Lookalikes> all{
+      // Coarse or rare counts are undone as well as can be. What is left are jumps of the shafts' speed, which look
+      // like late counts or like wheels that slip under them.
+      {{"encoder_resolution", "encoder_sampling"},
+       {"slippery_floor", "tyre_creep", "encoder_latency", "backlash"},
+       0.1},
+      // How a place or a push shakes the tyres, and the play behind them, differs between engines.
+      {{"push", "bump", "wheel_lift", "slippery_patch"},
+       {"backlash", "encoder_latency", "tyre_creep", "slippery_floor"},
+       0.01},
+      // A play's ends are stops that each engine makes in its own way.
+      {{"backlash"}, {"tyre_creep", "slippery_floor", "push", "wheel_lift", "slippery_patch"}, 0.01},
+      // Eccentric wheels heave the robot and shift its load: when tyres let go in turns differs between engines.
+      {{"wheel_eccentricity"}, {"slippery_patch", "wheel_lift", "slippery_floor", "tyre_creep"}, 0.05},
+      // Toed wheels scrub: how tyres give way to it, and the yaw that it takes, differ between tyres.
+      {{"wheel_misalignment"}, {"slippery_floor", "tyre_creep", "wheel_radius_difference", "wear"}, 0.25},
+      // Counts that get lost look like another radius, and so does what chance takes from them.
+      {{"encoder_missed_counts"}, {"wheel_radius_difference", "wheel_radius_scale", "wear"}, 0.02},
+      // How far a wheel slides once it has let go differs as well.
+      {{"slippery_floor"}, {"tyre_creep", "backlash", "encoder_latency", "caster_swivel", "caster_drag"}, 0.25},
+  };
+  return all;
+}
+
+std::ptrdiff_t of_these(const Fit& fit, const std::set<std::string>& effects) {
+  return std::count_if(fit.families.begin(), fit.families.end(),
+                       [&](const Family& f) { return effects.count(f.effect) > 0; });
+}
+
+double share_that_may_err(const Fit& base, const Thresholds& t) {
+  const auto scrubs = [](const Family& f) { return bool(f.with); };
+  return std::any_of(base.families.begin(), base.families.end(), scrubs) ? kScrubShare : t.addition_share;
+}
+
+bool adds_local(const Fit& base, const Fit& fit) {
+  return std::any_of(fit.families.begin(), fit.families.end(), [&](const Family& f) {
+    const auto same = [&](const Family& g) { return g.effect == f.effect; };
+    return f.search_cost > 0 && std::none_of(base.families.begin(), base.families.end(), same);
+  });
+}
+
+// Squares, in standard deviations, that a fit leaves beyond noise. Single readings count up to a bound only: a cable or
+// a patch that shakes the robot otherwise than foretold leaves much at one place, which says nothing of the rest.
+double excess(const Model& model, const Fit& fit) {
+  double sum = 0;
+  for (const Eigen::VectorXd& left : model.left_over(fit)) sum += left.cwiseAbs2().cwiseMin(kMostOfReading).sum();
+  return std::max(0.0, std::min(sum, fit.misfit) - (1 + Thresholds{}.noise_error) * model.rows());
+}
+
+}  // namespace
+
+double lookalike_share(const Fit& base, const Fit& fit) {
+  double share = 0;
+  for (const Lookalikes& l : lookalikes()) {
+    const bool more = of_these(fit, l.effects) > of_these(base, l.effects);
+    if (of_these(base, l.of) > 0 && more) share = std::max(share, l.share);
+  }
+  return share;
+}
+
+double seen_between(const Model& model, const Fit& base, const Fit& fit) {
+  double square = 0;
+  const auto change = model.columns(base.predicted, {fit.predicted}, {1});
+  for (std::size_t r = 0; r < change.size(); ++r) {
+    square += change[r].topRows(3 * Eigen::Index(model.filter(r).samples())).squaredNorm();
+  }
+  return square;
+}
+
+Needed addition_needed(const Model& model, const Fit& base, const Fit& none, const Thresholds& t) {
+  const double gained = std::max(0.0, base.log_evidence - none.log_evidence);
+  const double left = excess(model, base);
+  const double counts_left = model.counts_misfit(base.predicted);
+  const double counts_gained = std::max(0.0, model.counts_misfit(none.predicted) - counts_left) / 2;
+  // Where much is left the noise model is too narrow for what it is asked: evidence in units of what is left.
+  const double spread = std::max(1.0, base.misfit / model.rows() - t.noise_error);
+  const double off = kSignatureError * seen_between(model, none, base) / 2;
+  const double share = share_that_may_err(base, t) * gained;
+  const double own = spread * (t.addition + std::max(share, off));
+  const double for_misfit = t.misfit_share * left / 2;
+  Needed needed;
+  needed.gained = gained;
+  needed.left = left;
+  needed.everywhere = std::max(own, for_misfit);
+  needed.rolling = std::max(spread * (t.addition + share), for_misfit);
+  needed.local = std::max(own, t.local_misfit_share * left / 2);
+  // Counts and habits are measured as they are: no noise of the tracks, and no misfit of theirs, speaks against them.
+  needed.counts = std::max(t.addition + t.counts_share * counts_gained, t.counts_misfit_share * counts_left / 2);
+  // The screen is linear: beside something large an effect may bring ten times what it sees.
+  needed.hint = std::max({0.5 * t.addition, 0.1 * own, 0.5 * for_misfit});
+  return needed;
+}
+
+bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& needed, double extra) {
+  const double gain = fit.log_evidence - base.log_evidence;
+  if (gain < extra * lookalike_share(base, fit) * needed.gained) return false;
+  // What leaves most of the misfit as it was mends an error of the model, as any effect could. The model of what rolls
+  // and counts has none: there it is noise that is not as it was thought to be.
+  const bool leaves_most = !fit.only_rolls() && excess(model, fit) > kMost * needed.left;
+  const bool dear = leaves_most || adds_local(base, fit);
+  const double everywhere = fit.only_rolls() ? needed.rolling : needed.everywhere;
+  if (gain >= extra * (dear ? needed.local : everywhere)) return true;
+  const double counts = (model.counts_misfit(base.predicted) - model.counts_misfit(fit.predicted)) / 2;
+  // What tracks speak for mostly they must pay for, unless most of what counts show is at stake.
+  const bool by_counts = counts > gain / 2 || counts >= extra * kPlain * needed.counts;
+  return by_counts && std::min(gain, counts) >= extra * needed.counts;
+}
+
+}  // namespace umbsim::gap

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "gap/evidence/model.h"
+#include "gap/search/thresholds.h"
+
+namespace umbsim::gap {
+
+/// What a further effect must bring on top of a fit: log evidence.
+struct Needed {
+  double everywhere = 0;  ///< of an effect that acts on all runs
+  double rolling = 0;     ///< of an effect that only rolls or counts, on top of such
+  double local = 0;       ///< of one place or moment, which finds something to mend in any misfit
+  double counts = 0;      ///< or of counts against commands and of habits alone, where tracks say little
+  double gained = 0;      ///< what the fit itself brought
+  double left = 0;        ///< squares, in standard deviations, that the fit leaves beyond noise
+  double hint = 0;        ///< what the linear screen must see of it, for a fit to be tried
+};
+
+/// Share of what `base` brought that `fit`, with one effect more, must bring on top: above zero where that effect is
+/// what an error of an effect's model in `base` looks like, such as slip beside coarse counts.
+double lookalike_share(const Fit& base, const Fit& fit);
+
+/// Sum of squares of what a fit changes in the whitened tracks.
+double seen_between(const Model& model, const Fit& base, const Fit& fit);
+
+/// `none`: the fit of no effect.
+Needed addition_needed(const Model& model, const Fit& base, const Fit& none, const Thresholds& thresholds);
+
+/// Whether `fit`, with `extra` effects more than `base`, brings what they must.
+bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& needed, double extra = 1);
+
+}  // namespace umbsim::gap

@@ -1,0 +1,275 @@
+#include "gap/search/search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/error.h"
+#include "gap/evidence/kicks.h"
+#include "gap/noise/noise_floor.h"
+#include "gap/search/addition.h"
+#include "gap/search/climb.h"
+
+namespace umbsim::gap {
+namespace {
+
+constexpr double kContradicted = 25;  // five standard deviations, squared
+constexpr std::size_t kBases = 2;     // fits that further effects are tried on
+constexpr std::size_t kAdditionsFitted = 5;
+constexpr std::size_t kClimbs = 3;
+constexpr int kRounds = 7;
+constexpr int kFewerRounds = 4;  // what is there already has been fitted
+constexpr std::size_t kSwapsFitted = 2;
+constexpr int kSwaps = 2;
+constexpr int kDimensions = 2;          // of the robot, that may be named beside as many effects as are looked for
+constexpr double kAnotherVariant = 3;   // log evidence by which a second family of one effect may promise less
+constexpr double kTwins = 6;            // squared standard deviations between two fits' tracks, all readings
+constexpr double kRivals = 0.8;         // share of an effect's gain that the screen must see in another in its place
+constexpr double kHeld = 0.5;           // of what the screen saw of an effect beside a place, that its fit must hold
+constexpr double kFarBehind = 20;       // log evidence
+constexpr double kHint = 0.02;          // of what explains all, below which nothing else is looked at,
+constexpr double kLocalHint = 0.25;     // and the same of places and moments, which take long
+constexpr double kWorthAClimb = 0.1;    // of what the best single effect explains, the same of the best start
+constexpr double kPartOfNeeded = 0.25;  // of what a further effect must bring, the same of its best start
+constexpr double kDoubtful = 0.3;       // of what a further effect must bring
+constexpr double kScreening = 0.2;      // of the time of single effects
+constexpr double kAdding = 0.75;        // of a stage's time that further effects take; the rest are exchanges
+constexpr double kSuddenBeside = 0.05;  // of what is explained, that another engine leaves of kicks
+
+// Nothing is left but noise, as well as it is known, and nothing sudden, which a few readings show. `none`: the fit of
+// no effect.
+bool explains_all(const Model& model, const Fit& fit, const Fit& none, const Thresholds& t) {
+  if (fit.misfit >= (1 + t.noise_error) * model.rows()) return false;
+  const double explained = fit.log_evidence - none.log_evidence;
+  return strongest(find_kicks(model, fit)) < t.sudden + kSuddenBeside * explained;
+}
+
+// Forward from single effects, with a look back at what the first one should have been.
+class Search {
+ public:
+  Search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say)
+      : model_(model), screen_(screen), thresholds_(thresholds), say_(say), none_(model.none()), fits_{none_} {}
+
+  Found run() {
+    begin("fitting single effects");
+    fit_singles();
+    std::vector<Fit> frontier(fits_.begin() + 1, fits_.end());
+    for (int depth = 2; depth <= thresholds_.most_effects + kDimensions; ++depth) {
+      const std::vector<Fit> from = bases(std::move(frontier));
+      if (from.empty() || from.front().log_evidence < none_.log_evidence + thresholds_.detect) break;
+      begin(depth == 2 ? "fitting pairs of effects" : "fitting combinations of three");
+      frontier.clear();
+      for (std::size_t i = 0; i < from.size(); ++i) {
+        add_to(from[i], {kAdding * double(i) / double(from.size()), kAdding / double(from.size())}, frontier);
+      }
+      if (frontier.empty()) break;
+      done(kAdding);
+      swap(frontier);
+    }
+    return {std::move(fits_), std::move(doubtful_), std::move(p_values_)};
+  }
+
+ private:
+  void begin(const std::string& stage) {
+    stage_ = stage;
+    done(0);
+  }
+  void done(double share) const { say_(stage_, share); }
+
+  static bool less_evidence(const Fit& a, const Fit& b) { return a.log_evidence < b.log_evidence; }
+
+  std::optional<Fit> tried(const Fit& base, const Screen::Candidate& c, double least) {
+    std::vector<Family> families = base.families;
+    families.push_back(c.family);
+    try {
+      const std::optional<Eigen::VectorXd> from = searched_start(model_, base, c, least);
+      if (!from) return std::nullopt;
+      Eigen::VectorXd start(base.p.size() + from->size());
+      start << base.p, *from;
+      Fit fit =
+          model_.fit(families, start, base.families.empty() ? kRounds : kFewerRounds, {}, screen_.near(base, c.family));
+      // A place may have been fitted so that it makes up for what is only now beside it. What takes part in the contact
+      // would mend how another engine's robot is shaken there.
+      const bool less_than_seen = fit.log_evidence < base.log_evidence + kHeld * c.gain;
+      if (base.is_local() && only_rolls(c.family.effect) && c.gain > thresholds_.addition && less_than_seen) {
+        Fit again = model_.fit(families, climbed_again(model_, base, c.family, *from), kFewerRounds);
+        if (again.log_evidence > fit.log_evidence) fit = std::move(again);
+      }
+      fit.size = displacement_m(fit.predicted.tracks, base.predicted.tracks) / model_.noise_floor_m();
+      fit.seen = std::sqrt(seen_between(model_, base, fit) / model_.rows());
+      if (contradicted(base, fit)) return std::nullopt;
+      if (large_enough(base, fit)) return fit;
+      keep_doubtful(base, addition_needed(model_, base, none_, thresholds_), std::move(fit));
+    } catch (const RunError&) {
+      // A robot that cannot be simulated is no explanation,
+    } catch (const InputError&) {
+      // nor is one that does not stand at its start, on a cable or without a wheel's floor.
+    }
+    return std::nullopt;
+  }
+
+  void keep_doubtful(const Fit& base, const Needed& needed, Fit fit) {
+    if (base.families.empty() || pays(model_, base, fit, needed, kDoubtful)) doubtful_.push_back(std::move(fit));
+  }
+
+  // What the counts speak against may not explain the tracks, nor what would have made the runs scatter more than they
+  // do.
+  bool contradicted(const Fit& base, const Fit& fit) const {
+    return fit.log_chance < -kContradicted / 2 ||
+           model_.counts_misfit(fit.predicted) > model_.counts_misfit(base.predicted) + kContradicted;
+  }
+
+  bool large_enough(const Fit& base, const Fit& fit) const {
+    // Beside a free tracker's frame and clock a robot is as far from the simulator as the nuisances say, however far
+    // its noise makes it stray. What moves counts against commands, and not the robot, is seen there.
+    if (model_.tracker_is_free() && !base.families.empty()) return true;
+    const double smallest = base.families.empty() ? thresholds_.smallest : thresholds_.smallest_addition;
+    const bool small = fit.size < smallest && fit.seen < thresholds_.least_seen;
+    return !small || shows_in_counts(find_effect(fit.families.back().effect));
+  }
+
+  void fit_singles() {
+    std::vector<Screen::Candidate> singles = screen_.on_top_of(none_);
+    for (const Screen::Candidate& c : singles) {
+      const auto [of_effect, fresh] = p_values_.try_emplace(c.family.effect, c.p_value);
+      if (!fresh) of_effect->second = std::min(of_effect->second, c.p_value);
+    }
+    const std::vector<std::size_t> promising = worth_a_fit(singles);
+    for (std::size_t i = 0; i < promising.size(); ++i) {
+      done(kScreening + (1 - kScreening) * double(i) / double(promising.size()));
+      Screen::Candidate& c = singles[promising[i]];
+      if (!c.starts.empty() && idle(c)) continue;
+      const double most = std::max_element(fits_.begin(), fits_.end(), less_evidence)->log_evidence;
+      const double least = none_.log_evidence + kWorthAClimb * (most - none_.log_evidence);
+      if (auto fit = tried(none_, c, least)) {
+        fits_.push_back(std::move(*fit));
+      }
+    }
+  }
+
+  // Places and moments take many simulations: not where something else explains all that noise does not, and more than
+  // they do where they begin.
+  bool idle(Screen::Candidate& c) const {
+    double rival = -1e300;
+    for (const Fit& f : fits_) {
+      if (explains_all(model_, f, none_, thresholds_)) rival = std::max(rival, f.log_evidence - none_.log_evidence);
+    }
+    if (rival < c.gain) return false;
+    if (c.gain < (c.family.search_cost > 0 ? kLocalHint : kHint) * rival) return true;
+    return keep_best_starts(model_, none_, c) - none_.log_evidence < rival;
+  }
+
+  // Where to go on: the best, and another that is nearly as good or explains something quite different. What moves the
+  // robot alike within noise, as a contact's width and a wheelbase do, is no other.
+  std::vector<Fit> bases(std::vector<Fit> frontier) const {
+    std::stable_sort(frontier.begin(), frontier.end(), [](const Fit& a, const Fit& b) { return less_evidence(b, a); });
+    std::vector<Fit> from;
+    for (Fit& f : frontier) {
+      const bool other = std::none_of(from.begin(), from.end(), [&](const Fit& g) {
+        return g.name() == f.name() || (g.families.size() == f.families.size() && seen_between(model_, g, f) < kTwins);
+      });
+      if (other && from.size() < kBases) from.push_back(std::move(f));
+    }
+    if (from.size() < 2) return from;
+    const bool second_is_idle =
+        explains_all(model_, from[0], none_, thresholds_) && from[1].log_evidence < from[0].log_evidence - kFarBehind;
+    // Two explanations of what happened at one place or moment are not two.
+    if (second_is_idle || (from[0].is_local() && from[1].is_local())) from.resize(1);
+    return from;
+  }
+
+  // Effects of a fit that are not one of the robot's dimensions.
+  static int others(const Fit& fit) {
+    return int(std::count_if(fit.families.begin(), fit.families.end(),
+                             [](const Family& f) { return !is_dimension(f.effect); }));
+  }
+
+  /// From which share of a stage on, and how much of it.
+  struct Part {
+    double from;
+    double size;
+  };
+
+  // Fits of `base` and one effect more that pay.
+  void add_to(const Fit& base, Part part, std::vector<Fit>& paying) {
+    const Needed needed = addition_needed(model_, base, none_, thresholds_);
+    const double held = model_.density_at(base.families, base.p);
+    std::size_t fitted = 0;
+    std::size_t climbed = 0;
+    std::map<std::string, double> tried_gain;
+    const bool full = others(base) >= thresholds_.most_effects;
+    for (const Screen::Candidate& c : screen_.on_top_of(base)) {
+      if (fitted == kAdditionsFitted) break;
+      if (full && !is_dimension(c.family.effect)) continue;
+      const auto [first, fresh] = tried_gain.try_emplace(c.family.effect, c.gain);
+      if (!fresh && c.gain < first->second - kAnotherVariant) continue;
+      // A climb to a place or a moment takes more simulations than all other fits.
+      if (c.reach.size() > 1 && climbed == kClimbs) continue;
+      const bool counts = shows_in_counts(find_effect(c.family.effect));
+      const double hint = counts ? std::min(needed.hint, 0.5 * needed.counts) : needed.hint;
+      if (c.gain < (c.family.search_cost > 0 ? 0.5 * needed.local : hint)) continue;
+      if (c.reach.size() > 1) ++climbed;
+      done(part.from + part.size * double(fitted) / double(kAdditionsFitted));
+      auto fit = tried(base, c, held + kPartOfNeeded * needed.local);
+      if (!fit) continue;
+      ++fitted;
+      if (!pays(model_, base, *fit, needed)) {
+        keep_doubtful(base, needed, std::move(*fit));
+        continue;
+      }
+      fits_.push_back(*fit);
+      paying.push_back(std::move(*fit));
+    }
+  }
+
+  // Until the best fit stands, or often enough.
+  void swap(std::vector<Fit>& frontier) {
+    std::string swapped;
+    for (int i = 0; i < kSwaps; ++i) {
+      const Fit best = *std::max_element(frontier.begin(), frontier.end(), less_evidence);
+      if (best.name() == swapped) return;
+      swapped = best.name();
+      swap_one(best, frontier);
+    }
+  }
+
+  // The first effect was chosen while the others were not there: each but the last is taken out, and what could stand
+  // in its place is tried.
+  void swap_one(const Fit& whole, std::vector<Fit>& paying) {
+    for (std::size_t out = 0; out + 1 < whole.families.size(); ++out) {
+      const Fit base = model_.without(whole, out);
+      const double worth = whole.log_evidence - base.log_evidence;
+      fits_.push_back(base);
+      std::size_t fitted = 0;
+      for (const Screen::Candidate& c : screen_.on_top_of(base)) {
+        if (c.family.effect == whole.families[out].effect) continue;
+        if (c.gain < kRivals * worth || fitted == kSwapsFitted) break;
+        if (c.reach.size() > 1) continue;
+        auto fit = tried(base, c, -1e300);
+        if (!fit) continue;
+        ++fitted;
+        if (!pays(model_, base, *fit, addition_needed(model_, base, none_, thresholds_))) continue;
+        fits_.push_back(*fit);
+        paying.push_back(std::move(*fit));
+      }
+    }
+  }
+
+  const Model& model_;
+  const Screen& screen_;
+  const Thresholds& thresholds_;
+  const Say& say_;
+  std::string stage_;
+  const Fit none_;
+  std::vector<Fit> fits_;
+  std::vector<Fit> doubtful_;
+  std::map<std::string, double> p_values_;
+};
+
+}  // namespace
+
+Found search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say) {
+  return Search(model, screen, thresholds, say).run();
+}
+
+}  // namespace umbsim::gap
