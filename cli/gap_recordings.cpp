@@ -43,11 +43,14 @@ GapRecordings::GapRecordings(const std::vector<std::string>& folders, const std:
   }
   name_ = fmt::format("{}", fmt::join(names, "+"));
   campaign_ = gap::joined(std::move(recordings), names);
+  // In the order in which they are given, so that what wears goes on from one recording to the next.
+  int first_run = 0;
   for (std::size_t i = 0; i < folders.size(); ++i) {
     const Recording& recording = campaign_.parts[i];
     replays_.emplace_back(scenario.empty() ? scenario_of(recording, folders[i])
                                            : read_scenario(shipped_path(ShippedKind::scenario, scenario)),
-                          recording);
+                          recording, true, first_run);
+    first_run += int(recording.runs.size());
   }
 }
 

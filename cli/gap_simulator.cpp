@@ -18,9 +18,11 @@ constexpr std::size_t kMaxFileBytes = std::size_t(1) << 30;
 
 // What tracks depend on beside the recording: the program's own bytes (a commit does not tell two builds of a changed
 // tree apart), the scenario, the robot.
-std::string identity(const Scenario& scenario) {
+std::string identity(const Replay& replay) {
+  const Scenario& scenario = replay.scenario();
   const BuildInfo build = build_info();
-  std::string text = build.version + build.commit + build.compiler + build.bullet + build.build_type;
+  std::string text = std::to_string(replay.first_run()) + "\n" + build.version + build.commit + build.compiler +
+                     build.bullet + build.build_type;
   text += sha256(read_text_file("/proc/self/exe", kMaxFileBytes)) + resolved_yaml(scenario);
   return text + sha256(read_text_file(scenario_urdf(scenario), kMaxFileBytes));
 }
@@ -65,7 +67,8 @@ gap::Simulator gap_simulator(const Replay& replay) {
           },
           [&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.counts(run, effects); },
           [&replay](const std::vector<Effect>& effects) { return replay.habits(effects); },
-          [&replay](const std::vector<Effect>& effects) { return replay.scrubs(effects); }, replay.wheel_width_m(),
+          [&replay](const std::vector<Effect>& effects) { return replay.scrubs(effects); },
+          replay.wheel_width_m(),
           replay.nominal().total_mass_kg()};
 }
 
@@ -74,7 +77,7 @@ gap::Simulator cached_gap_simulator(const Replay& replay, bool no_cache) {
   std::string known;
   try {
     if (!no_cache) choice.folder = gap::user_cache_folder();
-    if (choice.folder) known = identity(replay.scenario());
+    if (choice.folder) known = identity(replay);
   } catch (const InputError&) {
     choice.folder.reset();  // what cannot be told apart is not kept
   }

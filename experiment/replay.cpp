@@ -1,12 +1,12 @@
 #include "experiment/replay.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <string>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "core/error.h"
 #include "effects/geometry.h"
@@ -77,8 +77,10 @@ auto of_run(const RecordedRun& run, const Work& work) {
   try {
     return work();
   } catch (const TippedOver& e) {
-    throw RunError(fmt::format("run {}: driven as it was recorded, {}. The recorded robot did not: look at the centre of "
-                               "mass, masses and casters in its URDF, and at loads in the scenario", run.id, e.what()));
+    throw RunError(
+        fmt::format("run {}: driven as it was recorded, {}. The recorded robot did not: look at the centre of "
+                    "mass, masses and casters in its URDF, and at loads in the scenario",
+                    run.id, e.what()));
   }
 }
 
@@ -97,10 +99,11 @@ std::vector<Push> timed(const std::vector<LegPush>& pushes, const std::vector<St
 
 }  // namespace
 
-Replay::Replay(const Scenario& scenario, const Recording& recording, bool by_tracker)
+Replay::Replay(const Scenario& scenario, const Recording& recording, bool by_tracker, int first_run)
     : scenario_(scenario),
       recording_(recording),
       by_tracker_(by_tracker && recording.truth_kind == "track"),
+      first_run_(first_run),
       nominal_(load_scenario_robot(scenario)) {
   Rig believed;
   believed.robot = nominal_;
@@ -125,7 +128,7 @@ Rig Replay::rig(std::size_t index, const std::vector<Effect>& effects) const {
   rig.robot = nominal_;
   rig.encoders = scenario_.encoders;
   rig.floor.friction = scenario_.floor_friction;
-  rig.run = {run.id, int(index), scenario_.seed};
+  rig.run = {run.id, first_run_ + int(index), scenario_.seed};
   rig.drivetrain = Drivetrain(torque_limit(scenario_, nominal_));
   for (const RecordedBump& b : run.bumps) {
     Cable cable;

@@ -21,10 +21,12 @@ class Replay {
   /// before the URDF's. `by_tracker`: the robot meets a cable or a patch where the recording's tracker saw it then
   /// (seen_track.h), else where the replay has come to: a prediction knows nothing of the way but the ticks. Throws
   /// InputError.
-  Replay(const Scenario& scenario, const Recording& recording, bool by_tracker = true);
+  /// `first_run`: number of the first run among all that the robot has driven, for what wears from run to run.
+  Replay(const Scenario& scenario, const Recording& recording, bool by_tracker = true, int first_run = 0);
 
   const Recording& recording() const { return recording_; }
   const RobotModel& nominal() const { return nominal_; }
+  int first_run() const { return first_run_; }
   /// Of the drive wheels, the narrower one; 0 where the recording names no URDF, or that gives none.
   double wheel_width_m() const;
   const Scenario& scenario() const { return scenario_; }
@@ -62,6 +64,7 @@ class Replay {
   Scenario scenario_;
   const Recording& recording_;
   bool by_tracker_;
+  int first_run_;
   RobotModel nominal_;
   std::vector<std::vector<Stretch>> stretches_;
   std::vector<Pose2> start_;   // of each run

@@ -71,6 +71,9 @@ std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, con
 void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const Thresholds& t) {
   while (causes.front().fit.families.size() > 1) {
     const Cause& front = causes.front();
+    const auto& families = front.fit.families;
+    const auto dimension = [](const Family& f) { return is_dimension(f.effect); };
+    if (model.tracker_is_free() && std::all_of(families.begin(), families.end(), dimension)) return;
     const double counts = model.counts_misfit(front.fit.predicted);
     const auto simpler = std::find_if(causes.begin(), causes.end(), [&](const Cause& c) {
       return !c.fit.families.empty() && c.fit.families.size() < front.fit.families.size() &&

@@ -45,8 +45,9 @@ Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
   }
   const RunGroups& groups = layout.groups;
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
-    sd.segment(layout.group(g), kPerGroup) << (groups.rolling[g] ? s.arc_leg_scale : s.leg_scale), s.turn_scale,
-        s.arc_scale, s.heading_rad_pm, s.lateral;
+    const bool several = layout.trackers.size() > 1;
+    sd.segment(layout.group(g), kPerGroup) << (groups.rolling[g] ? s.arc_leg_scale : s.leg_scale),
+        several ? s.turns_between : s.turn_scale, several ? s.turns_between : s.arc_scale, s.heading_rad_pm, s.lateral;
   }
   return sd;
 }

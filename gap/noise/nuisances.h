@@ -17,6 +17,7 @@ struct Scatter {
   double arc_leg_scale = 3e-4;   ///< the same between rolling turns
   double turn_scale = 3e-4;      ///< of turns in place
   double arc_scale = 1.5e-3;     ///< of rolling turns
+  double turns_between = 3e-3;   ///< of all turns, between recordings of one robot: kinds of driving that tyres scrub in
   double heading_rad_pm = 5e-5;  ///< along legs
   double lateral = 3e-5;         ///< along legs
   double marker_m = 0.003;       ///< of the tracked point from the axle's middle

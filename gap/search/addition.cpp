@@ -70,6 +70,15 @@ bool adds_local(const Fit& base, const Fit& fit) {
   });
 }
 
+bool adds_dimensions_alone(const Fit& base, const Fit& fit) {
+  const auto in_base = [&](const std::string& effect) {
+    return std::any_of(base.families.begin(), base.families.end(), [&](const Family& g) { return g.effect == effect; });
+  };
+  return fit.families.size() > base.families.size() &&
+         std::all_of(fit.families.begin(), fit.families.end(),
+                     [&](const Family& f) { return is_dimension(f.effect) || in_base(f.effect); });
+}
+
 // Squares, in standard deviations, that a fit leaves beyond noise. Single readings count up to a bound only: a cable or
 // a patch that shakes the robot otherwise than foretold leaves much at one place, which says nothing of the rest.
 double excess(const Model& model, const Fit& fit) {
@@ -124,6 +133,8 @@ Needed addition_needed(const Model& model, const Fit& base, const Fit& none, con
 
 bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& needed, double extra) {
   const double gain = fit.log_evidence - base.log_evidence;
+  // Dimensions of a real robot are always a little off: they pay for their numbers, and no more.
+  if (model.tracker_is_free() && adds_dimensions_alone(base, fit)) return gain >= extra * Thresholds{}.effect_cost;
   if (gain < extra * lookalike_share(base, fit) * needed.gained) return false;
   // What leaves most of the misfit as it was mends an error of the model, as any effect could. The model of what rolls
   // and counts has none: there it is noise that is not as it was thought to be.

@@ -53,6 +53,7 @@ class Search {
   Found run() {
     begin("fitting single effects");
     fit_singles();
+    if (model_.tracker_is_free()) fit_dimensions();
     std::vector<Fit> frontier(fits_.begin() + 1, fits_.end());
     for (int depth = 2; depth <= thresholds_.most_effects + kDimensions; ++depth) {
       const std::vector<Fit> from = bases(std::move(frontier));
@@ -144,6 +145,23 @@ class Search {
       if (auto fit = tried(none_, c, least)) {
         fits_.push_back(std::move(*fit));
       }
+    }
+  }
+
+  // No real robot is built to its drawing: the dimensions that every calibration is about are fitted together before
+  // anything else is looked for, each as long as it pays for its number.
+  void fit_dimensions() {
+    Fit base = none_;
+    for (;;) {
+      std::optional<Fit> best;
+      for (const Screen::Candidate& c : screen_.on_top_of(base)) {
+        if (!is_dimension(c.family.effect)) continue;
+        auto fit = tried(base, c, -1e300);
+        if (fit && (!best || fit->log_evidence > best->log_evidence)) best = std::move(fit);
+      }
+      if (!best || best->log_evidence < base.log_evidence + thresholds_.effect_cost) return;
+      base = std::move(*best);
+      if (base.families.size() > 1) fits_.push_back(base);
     }
   }
 
