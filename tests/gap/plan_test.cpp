@@ -41,7 +41,8 @@ struct Subject {
   explicit Subject(Recording r)
       : recording(std::move(r)),
         replay(scenario_of(recording, "."), recording),
-        model(recording, testing::simulator(replay), Scatter{}, NoiseModel{}) {}
+        campaign(campaign_of(recording)),
+        model(campaign, testing::simulator(replay), Scatter{}, NoiseModel{}) {}
 
   /// Mean probability of naming one of two effects for the other, both at the usual severity; -1 if one is not shown.
   double alike(const std::string& a, const std::string& b) const {
@@ -56,6 +57,7 @@ struct Subject {
 
   Recording recording;
   Replay replay;
+  Campaign campaign;
   Model model;
 };
 

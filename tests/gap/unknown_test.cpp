@@ -6,6 +6,7 @@
 
 #include "gap/evidence/generic.h"
 #include "gap/plan/ties.h"
+#include "gap/evidence/kicks.h"
 #include "tests/gap/patient.h"
 
 namespace umbsim::gap {
