@@ -1,9 +1,8 @@
 #include "sim/contact.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/LU>
 
 namespace umbsim {
 namespace {
@@ -50,12 +49,13 @@ Tangent turned(const Contact& c, const Matrix3d& give) {
 
 Tangent sticking_tangent(const Contact& c) {
   Tangent t;
-  t.give.setZero();
-  Vector3d offset(0, 0, c.spring_mps);
-  for (int i = 0; i < (c.friction > 0 ? 3 : 1); ++i) {
+  t.give = (1 / c.compliance[0] * c.direction[0]) * c.direction[0].transpose();
+  Vector3d offset = c.offset[0] * c.direction[0];
+  for (int i = 1; i < 3 && c.friction > 0; ++i) {
     t.give += (1 / c.compliance[i] * c.direction[i]) * c.direction[i].transpose();
     offset += c.offset[i] * c.direction[i];
   }
+  offset.z() += c.spring_mps;
   if (c.spring_give > 0) {  // by the formula of Sherman and Morrison
     const Vector3d up = t.give.col(2);
     t.give -= (c.spring_give / (1 + c.spring_give * up.z()) * up) * up.transpose();
@@ -64,8 +64,8 @@ Tangent sticking_tangent(const Contact& c) {
   return t;
 }
 
-// Linear in x and w: G_x x + G_w w = 0, and w = speed + C x. Closed and sticking rows say w = 0, open ones x = 0. Sliding
-// x_t is the projection of y = x_t - r w_t on the cone mu x_n, whose derivative only turns y.
+// Linear in x and w: G_x x + G_w w = 0, and w = speed + C x. Closed and sticking rows say w = 0, open ones x = 0.
+// Sliding x_t is the projection of y = x_t - r w_t on the cone mu x_n, whose derivative only turns y.
 Tangent tangent(const Contact& c, const Touch& at, const Likeness& like) {
   const double load = at.impulse[0] - like.normal * at.slip[0];
   if (load <= 0) {
@@ -97,6 +97,7 @@ Tangent tangent(const Contact& c, const Touch& at, const Likeness& like) {
 Touch touch(const Contact& c, const Tangent& tangent, const Vector3d& speed_mps) {
   const Vector3d force = tangent.push - tangent.give * speed_mps;
   Touch t;
+  t.impulse.setZero();
   for (int i = 0; i < (c.friction > 0 ? 3 : 1); ++i) t.impulse[i] = c.direction[i].dot(force);
   t.slip = speeds(c, speed_mps) + compliance(c) * t.impulse;
   if (c.friction <= 0) t.slip.tail<2>().setZero();

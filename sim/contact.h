@@ -24,15 +24,15 @@ struct Contact {
 /// A contact's impulse on its support, and the speed that its compliances leave of that of its point. Both along its
 /// directions: x and w of the contact laws (docs/physics.md).
 struct Touch {
-  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
-  Eigen::Vector3d slip = Eigen::Vector3d::Zero();
+  Eigen::Vector3d impulse;
+  Eigen::Vector3d slip;
 };
 
 /// Impulse per speed that makes x and w alike in the projections of the laws, for the normal and along the floor. Any
 /// positive values do; near the inverse of the diagonal of A Newton's method takes few steps.
 struct Likeness {
-  double normal = 1;
-  double along = 1;
+  double normal;
+  double along;
 };
 
 /// The laws of Signorini and Coulomb as a tangent: force = push - give (speed of the point).

@@ -1,15 +1,14 @@
-// The step of a robot whose motors hold their set-points: nearly every one. Contacts that stick are stiff dampers between
-// robot and floor, so that the velocity follows from one small linear problem in the robot's own coordinates,
+// The step of a robot whose motors hold their set-points: nearly every one. Contacts that stick are stiff dampers
+// between robot and floor, so that the velocity follows from one small linear problem in the robot's own coordinates,
 //
 //   (M + J^T C^-1 J) (u - u before) = change of momentum without contacts - J^T C^-1 (J u before + offset),
 //
 // the same equations as A x + b = 0 of the general step (docs/physics.md), solved for u instead of the impulses
 // x = -C^-1 (J u + offset). Each contact enters as a tensor of three by three at its place. Where one slides, opens or
 // closes, its impulse is another function of the velocity, and Newton's method finds where all of them balance.
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/LU>
 
 #include "sim/sticking.h"
 #include "sim/world_state.h"
@@ -107,12 +106,11 @@ void World::State::set_springs(double step_s) {
 void World::State::let_stick(double step_s, Rolling& now) {
   set_springs(step_s);
   for (int i = 0; i < contacts; ++i) {
-    now.tangent[i] = sticking_tangent(contact[i]);
-    now.tangent[i].open = grip.open[i];
+    const Tangent t = sticking_tangent(contact[i]);
     Sticking& s = now.sticking[i];
     s.slides = false;
-    s.give = now.tangent[i].give;
-    s.push = now.tangent[i].push - s.give * s.known;
+    s.give = t.give;
+    s.push = t.push - t.give * s.known;
   }
 }
 
@@ -196,7 +194,8 @@ void World::State::set_likeness(Rolling& now) const {
     double speed[3];
     for (int k = 0; k < 3; ++k) {
       const Vector3d turn = (contact[i].lever.arm_m - centre).cross(contact[i].direction[k]);
-      speed[k] = 1 / all.mass_kg + turn.dot(turns * turn) + (k == 0 || contact[i].friction > 0 ? contact[i].compliance[k] : 0);
+      speed[k] =
+          1 / all.mass_kg + turn.dot(turns * turn) + (k == 0 || contact[i].friction > 0 ? contact[i].compliance[k] : 0);
     }
     now.like[i] = {1 / speed[0], 2 / (speed[1] + speed[2])};
   }
@@ -232,7 +231,7 @@ bool World::State::slide(double step_s, const Impulse& given, Rolling& now, Stic
   for (int i = 0; i < kNewtonSteps; ++i) {
     set_springs(step_s);
     take_tangents(now);
-    motion = StickingProblem(now.held, given);
+    motion.start(now.held, given, none_slides(now));
     if (!solve_rolling(now, motion)) return false;
     const bool balanced = touch_all(now) < kBalanced;
     const bool stops = stops_change(step_s, now);
@@ -244,28 +243,36 @@ bool World::State::slide(double step_s, const Impulse& given, Rolling& now, Stic
 // What the contacts did in the step before.
 void World::State::take_touch_before(Rolling& now) const {
   for (int i = 0; i < contacts; ++i) {
-    Touch& t = now.touch[i] = {};
+    Touch& t = now.touch[i];
     t.slip = grip.slip[i];
+    t.impulse.setZero();
     if (problem.contacts != contacts) continue;
     const ContactRows& before = problem.contact[i];
     for (int k = 0; k < (before.friction > 0 ? 3 : 1); ++k) t.impulse[k] = impulses[before.normal + k];
   }
 }
 
+bool World::State::none_slides(const Rolling& now) const {
+  return std::none_of(now.sticking, now.sticking + contacts, [](const Sticking& s) { return s.slides; });
+}
+
 bool World::State::hold_or_slide(double step_s, const Impulse& given, Rolling& now, StickingProblem& motion) {
   let_stick(step_s, now);
   for (int round = 0; round < kRounds; ++round) {
-    motion = StickingProblem(now.held, given);
+    motion.start(now.held, given, true);
     if (!solve_rolling(now, motion)) return false;
     const Laws laws = check_sticking(now);
     if (laws == Laws::slide) break;
     const Laws bounded_laws = check_bounded(motion, now);
-    if (stops_change(step_s, now)) let_stick(step_s, now);
-    else if (laws == Laws::hold && bounded_laws == Laws::hold) return true;
+    if (stops_change(step_s, now))
+      let_stick(step_s, now);
+    else if (laws == Laws::hold && bounded_laws == Laws::hold)
+      return true;
   }
   // From where the contacts were in the step before, and from where they would be if all stuck.
   set_likeness(now);
   Touch stuck[8];
+  for (int i = 0; i < contacts; ++i) now.tangent[i] = sticking_tangent(contact[i]);
   touch_all(now);
   std::copy(now.touch, now.touch + contacts, stuck);
   take_touch_before(now);
@@ -310,7 +317,7 @@ bool World::State::step_rolling(double step_s, const std::array<double, 2>& targ
                                 DofVector& u) {
   Rolling now;
   if (!start_rolling(step_s, target_radps, now)) return false;
-  StickingProblem motion(now.held, given);
+  StickingProblem motion;
   if (!hold_or_slide(step_s, given, now, motion) || !motors_hold(step_s, target_radps, now, motion.turning())) {
     grip = {};
     return false;
@@ -327,8 +334,11 @@ bool World::State::step_rolling(double step_s, const std::array<double, 2>& targ
   }
   for (int i = 0; i < contacts; ++i) {
     slides = slides || now.sticking[i].slides;
-    grip.slip[i] = now.sticking[i].slides || grip.open[i] ? now.touch[i].slip : Vector3d(Vector3d::Zero());
   }
+  if (slides || grip.slipped) {
+    for (int i = 0; i < contacts; ++i) grip.slip[i] = slides ? now.touch[i].slip : Vector3d(Vector3d::Zero());
+  }
+  grip.slipped = slides;
   write_impulses(now);
   report = {};
   if (slides || !grip.all_hold()) report.outcome = SolveOutcome::newton;

@@ -5,7 +5,9 @@ namespace umbsim {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-StickingProblem::StickingProblem(const HeldBody& held, const Eigen::Matrix<double, 6, 1>& given) : legs_(held.legs) {
+void StickingProblem::start(const HeldBody& held, const Eigen::Matrix<double, 6, 1>& given, bool symmetric) {
+  legs_ = held.legs;
+  symmetric_ = symmetric;
   const Vector3d& c = held.all.moment_kgm;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
@@ -34,11 +36,34 @@ StickingProblem::StickingProblem(const HeldBody& held, const Eigen::Matrix<doubl
   }
 }
 
-// J^T give J with J = [-[r]x 1]: columns for a speed along each axis, and for a turn about it, w x r.
 void StickingProblem::add(const MultiBody::Lever& lever, const Sticking& contact) {
-  const Vector3d& r = lever.arm_m;
-  const Matrix3d& T = contact.give;
-  symmetric_ = symmetric_ && !contact.slides;
+  if (symmetric_)
+    add_symmetric(lever.arm_m, contact.give);
+  else
+    add_any(lever.arm_m, contact.give);
+  const Vector3d turned = lever.arm_m.cross(contact.push);
+  for (int i = 0; i < 3; ++i) right_[i] += turned[i], right_[i + 3] += contact.push[i];
+  if (contact.leg >= 0) add_to_leg(lever, contact);
+}
+
+// J^T T J with J = [-[r]x 1]: columns for a turn about each axis, w x r, and for a speed along it. G = [r]x T.
+void StickingProblem::add_symmetric(const Vector3d& r, const Matrix3d& T) {
+  double G[3][3];
+  for (int i = 0; i < 3; ++i) {
+    G[0][i] = r.y() * T(2, i) - r.z() * T(1, i);
+    G[1][i] = r.z() * T(0, i) - r.x() * T(2, i);
+    G[2][i] = r.x() * T(1, i) - r.y() * T(0, i);
+    for (int j = 0; j < 3; ++j) K_[i + 3][j] += G[j][i];
+    for (int j = 0; j <= i; ++j) K_[i + 3][j + 3] += T(i, j);
+  }
+  for (int i = 0; i < 3; ++i) {
+    K_[i][0] += r.y() * G[i][2] - r.z() * G[i][1];
+    if (i > 0) K_[i][1] += r.z() * G[i][0] - r.x() * G[i][2];
+    if (i > 1) K_[i][2] += r.x() * G[i][1] - r.y() * G[i][0];
+  }
+}
+
+void StickingProblem::add_any(const Vector3d& r, const Matrix3d& T) {
   Vector3d moment[3];
   for (int i = 0; i < 3; ++i) {
     moment[i] = r.cross(T.col(i));
@@ -49,9 +74,6 @@ void StickingProblem::add(const MultiBody::Lever& lever, const Sticking& contact
     const Vector3d pushed = r.cross(Vector3d(T.row(j)));
     for (int i = 0; i < 3; ++i) K_[j][i] += by_turn[i], K_[j + 3][i] += pushed[i];
   }
-  const Vector3d turned = r.cross(contact.push);
-  for (int i = 0; i < 3; ++i) right_[i] += turned[i], right_[i + 3] += contact.push[i];
-  if (contact.leg >= 0) add_to_leg(lever, contact);
 }
 
 void StickingProblem::add_to_leg(const MultiBody::Lever& lever, const Sticking& contact) {

@@ -15,11 +15,12 @@ struct Sticking {
 
 /// The momentum balance of a step, (M + J^T C^-1 J) (change of u) = right: the base's six rows, and two for each leg,
 /// whose joints couple to the base only. C^-1 of each contact is its tensor `give` at its place. What contacts hold is
-/// 1e6 times as stiff as what they let go: solved for the change of u, not for u, the round-off of the one does not show
-/// in the other.
+/// 1e6 times as stiff as what they let go: solved for the change of u, not for u, the round-off of the one does not
+/// show in the other.
 class StickingProblem {
  public:
-  StickingProblem(const HeldBody& held, const Eigen::Matrix<double, 6, 1>& given);
+  /// `symmetric`: no contact slides.
+  void start(const HeldBody& held, const Eigen::Matrix<double, 6, 1>& given, bool symmetric);
 
   void add(const MultiBody::Lever& lever, const Sticking& contact);
   /// Holds the base, which turns with `speed` about `axis`, against that, or pushes it so.
@@ -50,17 +51,19 @@ class StickingProblem {
     double a, b, c, d;
     double right[2];
   };
+  void add_symmetric(const Eigen::Vector3d& arm_m, const Eigen::Matrix3d& give);
+  void add_any(const Eigen::Vector3d& arm_m, const Eigen::Matrix3d& give);
   void add_to_leg(const MultiBody::Lever& lever, const Sticking& contact);
   bool set_legs_aside();
   bool solve_symmetric();
   bool solve_any();
   void find_legs();
 
-  double K_[6][6];  // angular, then linear
+  double K_[6][6];  // angular, then linear; the lower half where it is symmetric
   double right_[6];
   Leg leg_[4];
   int legs_;
-  bool symmetric_ = true;
+  bool symmetric_;
 };
 
 }  // namespace umbsim

@@ -58,6 +58,7 @@ struct Grip {
   bool open[8]{};
   int patch[8]{};   // -1, 1: at its limit
   int swivel[4]{};  // the same of each leg
+  bool slipped = false;
   std::array<Eigen::Vector3d, 8> slip = all_zero();
 
   static std::array<Eigen::Vector3d, 8> all_zero() {
@@ -158,6 +159,7 @@ struct World::State {
   bool slide(double step_s, const Impulse& given, Rolling& now, StickingProblem& motion);
   void set_likeness(Rolling& now) const;
   void take_tangents(Rolling& now);
+  bool none_slides(const Rolling& now) const;
   void take_touch_before(Rolling& now) const;
   double touch_all(Rolling& now);
   bool solve_rolling(Rolling& now, StickingProblem& motion) const;
@@ -173,6 +175,7 @@ struct World::State {
   void find_contacts(double step_s, double watch_m, double doubt_m, const std::array<double, 2>& wheel_radps);
   void add_contact(int support, const Joint& hinge, const Eigen::Vector3d& normal, double gap_m, double floor_friction,
                    double step_s, const std::array<double, 2>& wheel_radps);
+  void soften_contact(Contact& c, double gap_m, double step_s) const;
   void add_contacts(double step_s, const DofVector& u, bool found = false);
   void add_contact_rows(const Contact& c, const DofVector& u);
   TyreSlip tyre_slip(const Support& s) const;
