@@ -79,8 +79,7 @@ struct Predicted {
   std::vector<Scores> scores;
 };
 
-Predicted predicted(const std::string& folder, const Scenario& scenario, const std::string& squares) {
-  Predicted p{folder_name(folder), intake::take_in(folder).recording, {}};
+void predict_runs(Predicted& p, const Scenario& scenario, const std::string& squares) {
   Scenario without = scenario;
   without.effects.clear();
   const Replay replay(without, p.recording, false);
@@ -89,7 +88,6 @@ Predicted predicted(const std::string& folder, const Scenario& scenario, const s
     for (std::size_t r = 0; r < prediction.tracks.size(); ++r)
       p.scores.back().runs.push_back(calibration::prediction_error(p.recording.runs[r], prediction.tracks[r]));
   }
-  return p;
 }
 
 Json error_json(const calibration::RunError& e) {
@@ -139,12 +137,15 @@ std::string table(const Predicted& p, const std::string& title, double calibrati
 
 void predict(const PredictArguments& a) {
   const ThreadLimit limit(a.jobs);
-  const Scenario scenario = read_scenario(shipped_path(ShippedKind::scenario, a.scenario));
-  std::vector<std::string> names;
-  for (const std::string& folder : a.recordings) names.push_back(folder_name(folder));
-  ResultFolder out(a.out, fmt::format("{}-prediction", fmt::join(names, "+")), a.force);
   std::vector<Predicted> all;
-  for (const std::string& folder : a.recordings) all.push_back(predicted(folder, scenario, a.squares));
+  std::vector<std::string> names;
+  for (const std::string& folder : a.recordings) {
+    all.push_back({folder_name(folder), intake::take_in(folder).recording, {}});
+    names.push_back(all.back().name);
+  }
+  const Scenario scenario = read_scenario(shipped_path(ShippedKind::scenario, a.scenario));
+  ResultFolder out(a.out, fmt::format("{}-prediction", fmt::join(names, "+")), a.force);
+  for (Predicted& p : all) predict_runs(p, scenario, a.squares);
   out.write([&](const fs::path& into) {
     write_text_file(into / "prediction.json", prediction_json(all).dump(2) + "\n");
     const std::string source = fmt::format("{}", fmt::join(a.recordings, " "));

@@ -151,31 +151,24 @@ Family both_eccentric() {
   return both;
 }
 
-// The family on tyres that creep, by shares of slip per traction ratio that are fitted, too, but credited to nobody:
-// their logarithms, for what they pass on depends on their order of magnitude.
-Family with_creep(Family family, const std::string& variant, double along, double across) {
-  family.variant += variant;
+// Toed wheels scrub, and how that slows and turns the robot depends on how softly the tyres grip.
+Family on_soft_tyres(Family family) {
+  family.variant += ", soft tyres";
   const Eigen::Index own = Eigen::Index(family.parameters.size());
-  family.parameters.push_back({"log tyre_creep.along", 0, 0.2, 1.5, -5, std::log(0.5 / along)});
-  family.parameters.push_back({"log tyre_creep.across", 0, 0.2, 1.5, -5, std::log(0.5 / across)});
-  family.with = [own, along, across](const Eigen::VectorXd& p) {
+  // Shares of slip per traction ratio; their logarithms, for scrub depends on their order of magnitude.
+  constexpr double kAlong = 0.1;
+  constexpr double kAcross = 0.01;
+  family.parameters.push_back({"log tyre_creep.along", 0, 0.2, 1.5, -5, 1.6});
+  family.parameters.push_back({"log tyre_creep.across", 0, 0.2, 1.5, -5, 3.9});
+  family.from_zero = false;
+  family.parameters.front().start = family.parameters.front().step * 2;
+  family.with = [own](const Eigen::VectorXd& p) {
     Effect creep = neutral_effect(find_effect("tyre_creep"));
-    creep.values.numbers = {along * std::exp(p[own]), across * std::exp(p[own + 1])};
+    creep.values.numbers = {kAlong * std::exp(p[own]), kAcross * std::exp(p[own + 1])};
     return std::vector<Effect>{creep};
   };
   return family;
 }
-
-// Toed wheels scrub, and how that slows and turns the robot depends on how softly the tyres grip.
-Family on_soft_tyres(Family family) {
-  family = with_creep(std::move(family), ", soft tyres", 0.1, 0.01);
-  family.from_zero = false;
-  family.parameters.front().start = family.parameters.front().step * 2;
-  return family;
-}
-
-// A force on the body moves a robot whose wheels roll as far as its tyres give way to it.
-Family felt_through_creep(Family family) { return with_creep(std::move(family), ", creeping tyres", 0.02, 0.02); }
 
 }  // namespace
 
@@ -227,12 +220,10 @@ std::vector<Family> plain_families(double period_s, double ticks_per_revolution,
                         {{"trail_m", 0.03}, {"friction_nm", 0.1}}),
                  1.5),
       direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.04)}),
-      felt_through_creep(direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.1)})),
       drag_beside_middle("left of it", 0.05),
       drag_beside_middle("right of it", -0.05),
       from_start(direct("slippery_floor", "friction", {{"friction", 0, 2e-4, 0.2, 0.01, 0.8}}), 0.06),
       vector_family("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5),
-      felt_through_creep(vector_family("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5)),
       vector_family("carpet_drift", "metres_per_metre", "direction_rad", 1e-3, 0.008, 0.5),
   };
   for (Family& f : all) {
