@@ -25,6 +25,10 @@ class BagSource : public Source {
   std::string list() const;
   void wheels_of_odometry(const std::string& name, Log& log) const;
   std::string choose_truth() const;
+  /// Empty: none.
+  std::string choose_commands(Log& log) const;
+  void wheels_of_joints(Log& log) const;
+  void commands(Log& log) const;
 
   std::string path_;
   std::vector<std::unique_ptr<Bag>> bags_;

@@ -71,6 +71,9 @@ std::string with_options(const std::string& what) {
   if (says("swapped")) {
     return what + " (For import: exchange --left-joint and --right-joint, or --left-column and --right-column.)";
   }
+  if (says("commands") || says("_command_radps")) {
+    return what + " (For import: --commands for another topic, or --commands none to leave them out.)";
+  }
   if (says("must be in seconds of one clock")) return what + " (For import: --time-unit.)";
   if (says("wheel_radius_m") || says("wheelbase_m") || says("ticks_per_revolution")) {
     return what + " (For import: --wheel-radius, --wheelbase, --ticks-per-revolution, --unit, --truth-unit.)";
