@@ -109,22 +109,29 @@ class StrictEvents : public YAML::EventHandler {
 /// Follows the parser's events and refuses nothing but what is nested too deeply to be read.
 class AnyEvents : public YAML::EventHandler {
  public:
+  explicit AnyEvents(const std::string& file) : file_(file) {}
+
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
   void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
   void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
-  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
-    open();
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    open(mark);
   }
   void OnSequenceEnd() override { --depth_; }
-  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override { open(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    open(mark);
+  }
   void OnMapEnd() override { --depth_; }
 
  private:
-  void open() {
-    if (++depth_ > kMaxYamlDepth) throw InputError("nested too deeply");
+  void open(const YAML::Mark& mark) {
+    if (++depth_ <= kMaxYamlDepth) return;
+    throw InputError(SourceMark{file_, mark.line + 1, mark.column + 1},
+                     fmt::format("maps and lists are nested deeper than {} levels", kMaxYamlDepth));
   }
+  std::string file_;
   int depth_ = 0;
 };
 
@@ -161,7 +168,7 @@ void check_yaml(const std::string& text, const std::string& file) {
   try {
     parse_all(text, file, events);
   } catch (const InputError&) {
-    AnyEvents any;
+    AnyEvents any(file);
     if (events.odd_key()) parse_all(text, file, any);
     throw;
   }

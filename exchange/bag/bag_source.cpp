@@ -148,7 +148,17 @@ void BagSource::commands(Log& log) const {
   log.body_command = std::move(commands);
 }
 
-void BagSource::wheels(Log& log) const {
+void BagSource::named(const std::function<void()>& work) const {
+  try {
+    work();
+  } catch (const InputError& e) {
+    const std::string what = e.what();
+    const bool told = what.find(path_) != what.npos || what.find(options_.source) != what.npos;
+    throw InputError(told ? what : path_ + ": " + what);
+  }
+}
+
+void BagSource::read_wheels(Log& log) const {
   log.found.push_back(fmt::format("{}: {} topics: {}", path_, topics_.size(), list()));
   for (const Topic& t : topics_) {
     if (!is_known(t.type)) log.found.push_back(fmt::format("not used: {} ({})", t.name, t.type));
@@ -213,7 +223,7 @@ std::string BagSource::choose_truth() const {
       list()));
 }
 
-void BagSource::truth(Log& log) const {
+void BagSource::read_truth(Log& log) const {
   const std::string chosen = choose_truth();
   PlanarTrack track(chosen, options_.up);
   std::size_t number = 0;
