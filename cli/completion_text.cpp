@@ -157,8 +157,9 @@ std::string manual_page(const CLI::App& app, const std::string& version) {
       ".SH NAME\numbsim \\- physics testbed for honest odometry\n",
       roff(version));
   each_command(app, "", [&](const CLI::App& command, const std::string& path) {
-    const std::string before = path.rfind(' ') == path.npos ? "umbsim" : "umbsim " + path.substr(0, path.rfind(' '));
-    const std::string help = path.empty() ? app.help() : command.help(before);
+    // By the formatter: help() would show the command that is being run.
+    const std::string help = command.get_formatter()->make_help(&command, path.empty() ? "umbsim" : "umbsim " + path,
+                                                                CLI::AppFormatMode::Normal);
     text += fmt::format(".SH {}\n.nf\n{}\n.fi\n", path.empty() ? "SYNOPSIS" : roff("umbsim " + path), roff(help));
   });
   return text;

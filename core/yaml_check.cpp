@@ -31,6 +31,7 @@ class StrictEvents : public YAML::EventHandler {
     fail(mark, "aliases (*name) are not read; write the value out");
   }
   void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string& value) override {
+    count(mark);
     if (expects_key()) return add_key(mark, value);
     value_done();
   }
@@ -59,6 +60,11 @@ class StrictEvents : public YAML::EventHandler {
 
   bool expects_key() const { return !open_.empty() && open_.back().is_map && !open_.back().has_key; }
 
+  // yaml-cpp takes a kilobyte and some microseconds for each.
+  void count(const YAML::Mark& mark) {
+    if (++nodes_ > kMaxYamlNodes) fail(mark, fmt::format("more than {} keys and values in one file", kMaxYamlNodes));
+  }
+
   void add_key(const YAML::Mark& mark, const std::string& key) {
     Level& map = open_.back();
     map.key = key;
@@ -68,6 +74,7 @@ class StrictEvents : public YAML::EventHandler {
   }
 
   void open(const YAML::Mark& mark, bool is_map) {
+    count(mark);
     odd_key_ = expects_key();
     if (odd_key_) fail(mark, "a key must be text, not a map or a list");
     if (open_.size() >= std::size_t(kMaxYamlDepth)) {
@@ -103,6 +110,7 @@ class StrictEvents : public YAML::EventHandler {
   std::string file_;
   std::vector<Level> open_;
   int documents_ = 0;
+  int nodes_ = 0;
   bool odd_key_ = false;
 };
 

@@ -115,8 +115,8 @@ TEST(RobotCommand, AWheelWithoutLoadIsSaidEverywhere) {
   EXPECT_NE(text_of(desk.home / "out/report.html").find("carried no load"), std::string::npos);
 }
 
-// Its caster points forward at the start and elsewhere at the end, so that it leans otherwise on its springs: an encoder
-// counts that. By statics it goes with the springs' travel, and not with the way.
+// Its caster points forward at the start and elsewhere at the end, so that it leans otherwise on its springs: an
+// encoder counts that. By statics it goes with the springs' travel, and not with the way.
 TEST(RobotCommand, OnSpringsACasterThatTurnsIsAnOffsetAndNoDrift) {
   const Desk desk;
   const std::string urdf = std::string(UMBSIM_SOURCE_DIR) + "/tests/sim/urdf/as_they_come/twin_wheel_caster.urdf";
@@ -126,7 +126,7 @@ TEST(RobotCommand, OnSpringsACasterThatTurnsIsAnOffsetAndNoDrift) {
          "course.side_m=" + side_m, "--set", "runs.per_direction=1", "--set", "calibration.method=none", "--set",
          "robot.suspension={wheel_travel_m: " + travel_m + ", caster_travel_m: " + travel_m + "}"});
     EXPECT_EQ(run.code, 0) << run.err;
-    return json_of(desk.home / "out/summary.json").at("umbmark").at("cw").at("x_cg_m").get<double>();
+    return json_of(desk.home / "out/summary.json").at("umbmark").at("cw").at("centroid_x_m").get<double>();
   };
   const double rigid = off_m("1", "0"), soft = off_m("1", "0.02"), far = off_m("3", "0.02"), half = off_m("1", "0.01");
   EXPECT_LT(std::abs(rigid), 1.2e-5);  // supports sink by 0.1 mm
