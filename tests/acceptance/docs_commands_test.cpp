@@ -53,16 +53,15 @@ INSTANTIATE_TEST_SUITE_P(Every, Document,
                          testing::Values("README.md", "docs/life-of-a-run.md", "docs/scenario.md", "docs/outputs.md",
                                          "docs/recording-format.md", "docs/conventions.md", "docs/architecture.md",
                                          "docs/physics.md", "docs/sweep.md", "docs/sweep-database.md", "docs/ci.md",
-                                         "docs/cluster.md", "docs/calibration.md", "docs/your-robot.md"),
+                                         "docs/cluster.md", "docs/calibration.md", "docs/your-robot.md",
+                                         "docs/tutorial.md", "docs/new-effect.md", "docs/new-calibration-method.md"),
                          [](const auto& param_info) {
                            std::string name = fs::path(param_info.param).stem().string();
                            for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
                            return name;
                          });
 
-TEST(Readme, ShowsCommands) {
-  EXPECT_GE(commands_of(std::string(UMBSIM_SOURCE_DIR) + "/README.md").size(), 5u);
-}
+TEST(Readme, ShowsCommands) { EXPECT_GE(commands_of(std::string(UMBSIM_SOURCE_DIR) + "/README.md").size(), 5u); }
 
 // Links to files of the project lead somewhere.
 TEST(Documents, LinksLeadSomewhere) {
