@@ -13,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/help.h"
 #include "cli/jobs.h"
+#include "cli/pages.h"
 #include "cli/tables.h"
 #include "core/error.h"
 #include "core/text_file.h"
@@ -33,6 +34,7 @@ struct CalibrateArguments {
   std::string out;
   std::string method = "all";
   bool force = false;
+  bool open = false;
   int jobs = 0;
 };
 
@@ -129,6 +131,7 @@ void calibrate(const CalibrateArguments& a) {
         fmt::format("Odometry calibrated on '{}' ({})", fmt::join(task.train_names, "', '"), winner);
     write_text_file(into / "calibration.yaml", calibration_yaml(calibrated, comment));
     write_text_file(into / "calibration.json", json.dump(2) + "\n");
+    write_page(into, PageKind::calibration, calibration_page(json, base, page_provenance_json(a.recordings.front(), 0)));
     write_text_file(into / "provenance.json", provenance_json(a.recordings.front(), 0).dump(2) + "\n");
   });
   for (std::size_t i = 0; i < task.train.size(); ++i)
@@ -141,10 +144,11 @@ void calibrate(const CalibrateArguments& a) {
   fmt::print("{}", comparison_table(c, task));
   for (const std::string& said : limits) fmt::print("{}", wrapped("Limit: " + said));
   fmt::print(
-      "{}Result in {}: calibration.yaml, calibration.json\n",
+      "{}Result in {}: calibration.yaml, calibration.json; {}\n",
       wrapped(fmt::format("Calibrated odometry ({}): left radius {:.6f} m, right radius {:.6f} m, wheelbase {:.6f} m",
                           winner, calibrated.left_radius_m, calibrated.right_radius_m, calibrated.wheelbase_m)),
-      out.said());
+      out.said(), page_said(out.path()));
+  finish_page(out.path(), a.open);
 }
 
 }  // namespace
@@ -163,6 +167,7 @@ void add_calibrate_command(CLI::App& app) {
       ->check(known.description(""))
       ->capture_default_str();
   command->add_flag("--force", a->force, "Replace a finished result");
+  add_open_option(command, a->open);
   add_threads_option(*command, a->jobs);
   add_example(command, "umbsim calibrate results/umbmark\n  umbsim calibrate squares circles --test free");
   command->callback([a] { calibrate(*a); });

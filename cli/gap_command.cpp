@@ -12,6 +12,7 @@
 #include "cli/gap_simulator.h"
 #include "cli/help.h"
 #include "cli/jobs.h"
+#include "cli/pages.h"
 #include "cli/shipped.h"
 #include "core/text_file.h"
 #include "core/wrapped_text.h"
@@ -19,6 +20,7 @@
 #include "experiment/replay.h"
 #include "experiment/result_folder.h"
 #include "experiment/result_json.h"
+#include "experiment/scene_json.h"
 #include "gap/clock.h"
 #include "gap/diagnosis_json.h"
 #include "gap/diagnosis_text.h"
@@ -26,7 +28,6 @@
 #include "gap/remembered.h"
 #include "gap/tracks_json.h"
 #include "gap/verdict.h"
-#include "report/report.h"
 
 namespace umbsim {
 namespace {
@@ -39,6 +40,7 @@ struct DiagnoseArguments {
   std::vector<std::string> excluded;
   std::string out;
   bool force = false;
+  bool open = false;
   bool no_cache = false;
   int jobs = 0;
 };
@@ -83,12 +85,18 @@ std::vector<gap::NextExperiment> next_runs(const Scenario& scenario, const Recor
 }
 
 // The page is the same bytes on every run: without the cost.
-std::string page(const gap::Model& model, const gap::Diagnosis& d, const Json& json) {
+Json page(const gap::Model& model, const gap::Diagnosis& d, const Json& json, const Scenario& scenario,
+          const std::string& given) {
   Json data{{"title", "Gap diagnosis: " + model.recording().title}, {"version", build_info().version}};
   data["diagnosis"] = json;
   data["diagnosis"].erase("cost");
   data["runs"] = gap::tracks_json(model, d);
-  return render_gap_report(data);
+  data["side_m"] = model.recording().path.side_m;
+  data["robot"] = robot_scene_json(scenario_urdf_text(scenario), scenario_urdf(scenario), load_scenario_robot(scenario));
+  data["robot"]["wheelbase_m"] = model.recording().robot.wheelbase_m;
+  data["floor"] = floor_scene_json(rig_for(scenario, load_scenario_robot(scenario), {}).floor);
+  data["provenance"] = page_provenance_json(given, 0);
+  return data;
 }
 
 void run_diagnose(const DiagnoseArguments& a) {
@@ -124,13 +132,14 @@ void run_diagnose(const DiagnoseArguments& a) {
                   {"simulated_s", d.simulated_s}};
   out.write([&](const fs::path& into) {
     write_text_file(into / "diagnosis.json", json.dump(2) + "\n");
-    write_text_file(into / "report.html", page(model, d, json));
+    write_page(into, PageKind::gap, page(model, d, json, twin(scenario, replay, d), a.recording));
     write_scenario(twin(scenario, replay, d), into / "twin.yaml");
     write_text_file(into / "provenance.json", provenance_json(a.recording, 0).dump(2) + "\n");
   });
-  fmt::print("{}{}Result in {}: diagnosis.json, twin.yaml; open {}/report.html\n",
+  fmt::print("{}{}Result in {}: diagnosis.json, twin.yaml; {}\n",
              wrapped(fmt::format("{}: {}", folder_name(a.recording), recording.title)), gap::diagnosis_text(d, next),
-             out.said(), out.path());
+             out.said(), page_said(out.path()));
+  finish_page(out.path(), a.open);
 }
 
 }  // namespace
@@ -150,6 +159,7 @@ void add_gap_command(CLI::App& app) {
       ->allow_extra_args(false);
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<recording>-diagnosis");
   command->add_flag("--force", a->force, "Replace a finished result");
+  add_open_option(command, a->open);
   command->add_flag("--no-cache", a->no_cache, "Keep no simulated tracks in the user's cache folder, and use none");
   add_threads_option(*command, a->jobs);
   add_example(command, "umbsim gap diagnose results/umbmark --exclude bump");

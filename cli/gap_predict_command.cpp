@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/help.h"
 #include "cli/jobs.h"
+#include "cli/pages.h"
 #include "cli/shipped.h"
 #include "core/text_file.h"
 #include "core/wrapped_text.h"
@@ -29,6 +30,7 @@ struct PredictArguments {
   std::string squares;
   std::string out;
   bool force = false;
+  bool open = false;
   int jobs = 0;
 };
 
@@ -120,17 +122,21 @@ void predict(const PredictArguments& a) {
   std::vector<Scores> all;
   for (const calibration::Prediction& p : predictions(replay, scenario.effects, a.squares)) all.push_back(scores(recording, p));
   out.write([&](const fs::path& into) {
-    write_text_file(into / "prediction.json", prediction_json(recording, all).dump(2) + "\n");
+    const Json json = prediction_json(recording, all);
+    write_text_file(into / "prediction.json", json.dump(2) + "\n");
+    write_page(into, PageKind::prediction, prediction_page(json, base, page_provenance_json(a.recording, 0)));
     write_text_file(into / "provenance.json", provenance_json(a.recording, 0).dump(2) + "\n");
   });
   std::vector<std::string> effects;
   for (const Effect& e : scenario.effects) effects.push_back(e.info->name);
-  fmt::print("{}{}Final position error, mm\n{}{}Result in {}: prediction.json\n",
+  fmt::print("{}{}Final position error, mm\n{}{}Result in {}: prediction.json; {}\n",
              wrapped(fmt::format("{}: {}", base, recording.title)),
              wrapped(fmt::format("Effects of {}: {}", a.scenario,
                                  effects.empty() ? "none" : fmt::format("{}", fmt::join(effects, ", ")))),
              table(recording, all, "start and frame fitted", &calibration::RunError::final_mm),
-             table(recording, all, "recorded start as exact", &calibration::RunError::raw_final_mm), out.said());
+             table(recording, all, "recorded start as exact", &calibration::RunError::raw_final_mm), out.said(),
+             page_said(out.path()));
+  finish_page(out.path(), a.open);
 }
 
 }  // namespace
@@ -147,6 +153,7 @@ void add_gap_predict_command(CLI::App& group) {
                       "UMBmark squares of the same robot: compare with odometry calibrated on them");
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<recording>-prediction");
   command->add_flag("--force", a->force, "Replace a finished result");
+  add_open_option(command, a->open);
   add_threads_option(*command, a->jobs);
   add_example(command,
               "umbsim gap predict results/umbmark --scenario \\\n    results/umbmark-diagnosis/twin.yaml");

@@ -86,6 +86,16 @@ double torque_limit(const Scenario& s, const RobotModel& robot) {
 
 namespace {
 
+WheelMoment wheels_of(const World& world) {
+  WheelMoment now;
+  for (int i = 0; i < 2; ++i) {
+    now.angle_rad[std::size_t(i)] = world.wheel_angle(i);
+    now.load_n[std::size_t(i)] = world.loads().wheel_n[std::size_t(i)];
+    now.slid_s[std::size_t(i)] = world.strain(i).slid_s;
+  }
+  return now;
+}
+
 constexpr int kLap = 8;  // segments: four legs, four turns
 
 DrivenRun drive_plan(const Scenario& scenario, const Rig& rig, const Plan& plan, const OdometryParameters& odometry,
@@ -116,7 +126,9 @@ DrivenRun drive_plan(const Scenario& scenario, const Rig& rig, const Plan& plan,
     laps.done(segment / kLap);
     track.fix_if_due(segment, world.pose(), reckoning);
     recorder.encoders(time_s, left, right, command);
-    if (recorder.truth_is_due(period)) recorder.truth(time_s, world.pose(), track.note(world.pose(), reckoning));
+    if (recorder.truth_is_due(period)) {
+      recorder.truth(time_s, world.pose(), track.note(world.pose(), reckoning), wheels_of(world));
+    }
     if (period == periods) break;
     cables.lay_if_due(reckoning.pose(), segment, world, rig, recorder.run());
     command = period < driven ? drive(plan, time_s, period_s, reckoning.pose(), believed, segment) : WheelSpeeds{};

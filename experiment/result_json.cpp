@@ -220,4 +220,10 @@ Json provenance_json(const std::string& input, std::uint64_t seed) {
           {"bullet_version", info.bullet}, {"build_type", info.build_type}, {"host", host}};
 }
 
+Json page_provenance_json(const std::string& input, std::uint64_t seed) {
+  Json json = provenance_json(input, seed);
+  json.erase("host");
+  return json;
+}
+
 }  // namespace umbsim

@@ -55,7 +55,7 @@ TEST(CalibrateCommand, TheDefaultFolderIsNamedAfterTheRecording) {
   ASSERT_EQ(desk.umbsim({"run", "short.yaml"}).code, 0);
   const Outcome calibrate = desk.umbsim({"calibrate", "results/short/"});
   ASSERT_EQ(calibrate.code, 0) << calibrate.err;
-  EXPECT_EQ(listing(desk.home / "results"), (std::set<std::string>{"latest", "short", "short-calibration"}));
+  EXPECT_EQ(listing(desk.home / "results"), (std::set<std::string>{"index.html", "latest", "short", "short-calibration"}));
 }
 
 // calibration.yaml goes into a scenario as it is, and the squares then close.

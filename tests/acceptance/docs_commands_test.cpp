@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Every, Document,
                          testing::Values("README.md", "docs/life-of-a-run.md", "docs/scenario.md", "docs/outputs.md",
                                          "docs/recording-format.md", "docs/conventions.md", "docs/architecture.md",
                                          "docs/physics.md", "docs/sweep.md", "docs/sweep-database.md", "docs/ci.md",
-                                         "docs/cluster.md", "docs/calibration.md", "docs/your-robot.md"),
+                                         "docs/cluster.md", "docs/calibration.md", "docs/your-robot.md", "docs/pages.md"),
                          [](const auto& param_info) {
                            std::string name = fs::path(param_info.param).stem().string();
                            for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
