@@ -48,8 +48,16 @@ export async function open(file, {width = 1280, height = 900, dark = false, hash
   return page;
 }
 
-/// What every page promises, at the end of whatever was done with it.
-export async function close(page) {
+const shared = new Map();
+
+/// The same page for several parts of a test, which leave it as they like.
+export async function again(file) {
+  if (!shared.has(file)) shared.set(file, await open(file));
+  return shared.get(file);
+}
+
+/// What every page promises, whatever was done with it.
+export async function sound(page) {
   assert.equal(await page.locator("#page-error").isVisible(), false, await page.locator("#page-error").textContent());
   const text = await page.evaluate(() => document.getElementById("report").innerText);
   for (const broken of ["NaN", "undefined", "Infinity", "[object"]) {
@@ -57,6 +65,10 @@ export async function close(page) {
     assert.equal(at, -1, `"${broken}" on the page: …${text.slice(Math.max(0, at - 60), at + 30)}…`);
   }
   assert.deepEqual(page.complaints, []);
+}
+
+export async function close(page) {
+  await sound(page);
   await page.context().close();
 }
 
@@ -112,6 +124,6 @@ export const number = (text) => Number(text.replace(/\u2212/g, "-").replace(/[\s
 
 /// A shown number is that of the data, to the digits that are shown.
 export function same(shown, value, what) {
-  const digits = (shown.replace(/[^\d.]/g, "").split(".")[1] ?? "").length;
+  const digits = (/\.(\d+)/.exec(shown)?.[1] ?? "").length;
   assert.ok(Math.abs(number(shown) - value) <= 0.5001 * 10 ** -digits + 1e-12, `${what}: ${shown} is shown, ${value} in the data`);
 }

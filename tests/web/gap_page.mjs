@@ -1,6 +1,6 @@
 // gap_page.mjs TOOLS REPORT.html: the page of a gap diagnosis.
 import assert from "node:assert/strict";
-import {accessible, close, dataOf, differ, download, fits, open, pages, picture, run, same} from "./browser.mjs";
+import {accessible, again, close, dataOf, differ, download, fits, open, pages, picture, run, same, sound} from "./browser.mjs";
 
 const [file] = pages;
 const data = dataOf(file);
@@ -10,7 +10,7 @@ const twins = data.runs.filter((r) => r.after).length;
 
 await run({
   async "verdict, figures and causes are those of the data"() {
-    const page = await open(file);
+    const page = await again(file);
     assert.equal((await page.locator(".headline").textContent()).trim(), d.verdict);
     const tile = (name) => page.locator(".tile", {has: page.locator("dt", {hasText: name})}).first().locator(".value").textContent();
     same(await tile("Off by"), d.gap.before_mm, "off by");
@@ -20,11 +20,11 @@ await run({
     assert.ok(await rows.count() >= 1);
     const first = (await rows.first().locator("th").textContent()).replace(/ \+ /g, "+").replace(/ /g, "_");
     assert.equal(first, Object.keys(d.causes[0].effects).sort().join("+"));
-    await close(page);
+    await sound(page);
   },
 
   async "runs that repeat each other share a panel, and differences show from the start"() {
-    const page = await open(file);
+    const page = await again(file);
     assert.equal(await page.locator("#where .truth path").count(), groups.length);
     assert.equal(await page.locator("#where .odometry path").count(), groups.length);
     assert.equal(await page.locator("#where .twin path").count(), twins ? groups.length : 0);
@@ -41,14 +41,14 @@ await run({
     await slider.fill("6");
     assert.notEqual(await path.getAttribute("d"), one);
     if (d.gap.detected) assert.notEqual(before, one, "an error that shows is enlarged at first");
-    await close(page);
+    await sound(page);
   },
 
   async "every scored part is in the strip"() {
-    const page = await open(file);
+    const page = await again(file);
     const scored = d.where.segments.filter((s) => s.score > 0).length;
     assert.equal(await page.locator("#gap-strip .segment > *").count(), scored);
-    await close(page);
+    await sound(page);
   },
 
   async "nothing is cut off at 390 px and at 1280 px"() {
@@ -65,7 +65,7 @@ await run({
   },
 
   async "saved, and dark"() {
-    const page = await open(file);
+    const page = await again(file);
     const light = await picture(page.locator("#where"));
     const csv = await download(page, page.locator("#which [data-save=csv]"));
     assert.ok(csv.bytes.toString().split("\n").length >= 2);

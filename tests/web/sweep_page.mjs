@@ -1,6 +1,6 @@
 // sweep_page.mjs TOOLS REPORT.html: the page of a sweep.
 import assert from "node:assert/strict";
-import {accessible, close, dataOf, differ, download, fits, open, pages, picture, run} from "./browser.mjs";
+import {accessible, again, close, dataOf, differ, download, fits, open, pages, picture, run, sound} from "./browser.mjs";
 
 const [file] = pages;
 const data = dataOf(file);
@@ -9,7 +9,7 @@ const places = (page) => page.locator("#sweep-map :is(.cell, .place) > *");
 await run({
   async "what the sweep drove is drawn"() {
     const begun = Date.now();
-    const page = await open(file);
+    const page = await again(file);
     console.log(`  ${data.rows.length} points drawn after ${Date.now() - begun} ms`);
     assert.equal(await page.locator("h1").textContent(), `Sweep ${data.title}`);
     assert.ok(await places(page).count() >= Math.min(20, data.rows.length), `${await places(page).count()} places`);
@@ -18,18 +18,18 @@ await run({
     if (data.rows.some((r) => r.unmet)) assert.ok(await page.locator("#sweep-map .unmet > *").count() >= 1);
     if (data.checks.length) assert.equal(await page.locator("#expectations table").first().locator("tbody tr").count(), data.checks.length);
     if (data.axes.some((a) => a.key === "effects.wheelbase.relative")) assert.ok(await page.locator("#figure-2 .recovered > *").count() >= data.rows.length / 2);
-    await close(page);
+    await sound(page);
   },
 
   async "axes have names and units, not keys"() {
-    const page = await open(file);
+    const page = await again(file);
     const text = await page.locator("#sweep-map svg").textContent();
     for (const axis of data.axes) assert.ok(!text.includes(axis.key) || !axis.key.includes("."), `${axis.key} on the chart`);
-    await close(page);
+    await sound(page);
   },
 
   async "any figure over any axes, as curves, map, or all axes side by side"() {
-    const page = await open(file);
+    const page = await again(file);
     const chart = page.locator("#sweep-map svg");
     const first = await picture(chart);
     await page.locator("[data-control=kind]").selectOption("parallel");
@@ -46,7 +46,7 @@ await run({
     await page.locator("[data-control=log]").check();
     await page.locator("[data-control=kind]").selectOption("curves");
     await download(page, page.locator("#sweep-map [data-act=svg]"));
-    await close(page);
+    await sound(page);
   },
 
   async "phone and dark mode"() {

@@ -84,6 +84,7 @@ export class Chart {
     this.svg.setAttribute("role", "img");
     this.svg.setAttribute("aria-label", label);
     this.svg.dataset.chart = this.options.name;
+    this.svg.querySelectorAll("g[aria-label]").forEach((g) => g.removeAttribute("aria-label"));  // the label above says it all
     const box = find(this.place, ".plot");
     box.setAttribute("aria-label", `${this.options.name}. Arrow keys read the values.`);
     box.replaceChildren(this.svg);
