@@ -12,7 +12,7 @@ await run({
     const page = await again(file);
     console.log(`  ${data.rows.length} points drawn after ${Date.now() - begun} ms`);
     assert.equal(await page.locator("h1").textContent(), `Sweep ${data.title}`);
-    assert.ok(await places(page).count() >= Math.min(20, data.rows.length), `${await places(page).count()} places`);
+    assert.ok(await places(page).count() >= Math.min(20, data.rows.filter((r) => !r.failed).length / 2), `${await places(page).count()} places`);
     const failed = data.rows.filter((r) => r.failed).length;
     if (failed) assert.ok(await page.locator("#sweep-map .fault > *").count() >= 1);
     if (data.rows.some((r) => r.unmet)) assert.ok(await page.locator("#sweep-map .unmet > *").count() >= 1);
@@ -39,9 +39,9 @@ await run({
     assert.ok(await places(page).count() >= 1);
     const figures = page.locator("[data-control=figure] option");
     if (await figures.count() > 1) {
-      const before = await chart.textContent();
+      const before = await chart.getAttribute("aria-label");
       await page.locator("[data-control=figure]").selectOption({index: await figures.count() - 1});
-      assert.notEqual(await chart.textContent(), before);
+      assert.notEqual(await chart.getAttribute("aria-label"), before);
     }
     await page.locator("[data-control=log]").check();
     await page.locator("[data-control=kind]").selectOption("curves");

@@ -71,7 +71,7 @@ export class Chart {
     find(place, ".plot").addEventListener("keydown", (event) => this.key(event as KeyboardEvent));
     this.redraw();
     new ResizeObserver(() => {
-      if (this.place.clientWidth !== this.width) this.redraw();
+      if (this.place.clientWidth !== this.width) requestAnimationFrame(() => this.redraw());
     }).observe(place);
   }
 
@@ -84,7 +84,7 @@ export class Chart {
     this.svg.setAttribute("role", "img");
     this.svg.setAttribute("aria-label", label);
     this.svg.dataset.chart = this.options.name;
-    this.svg.querySelectorAll("g[aria-label]").forEach((g) => g.removeAttribute("aria-label"));  // the label above says it all
+    this.svg.querySelectorAll("[aria-label]").forEach((mark) => mark.removeAttribute("aria-label"));  // the label above says it all
     const box = find(this.place, ".plot");
     box.setAttribute("aria-label", `${this.options.name}. Arrow keys read the values.`);
     box.replaceChildren(this.svg);

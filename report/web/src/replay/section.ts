@@ -168,7 +168,7 @@ function setup(section: HTMLElement, id: string, title: string, player: Player):
     show(false);
     replay.draw();
     requestAnimationFrame(() => setTimeout(() => performance.mark("first-frame")));
-    new ResizeObserver(size).observe(canvas.parentElement!);
+    new ResizeObserver(() => requestAnimationFrame(size)).observe(canvas.parentElement!);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
       replay!.recolour();
       replay!.draw();

@@ -22,25 +22,52 @@ const mm1 = (v: number): string => fixed(v * 1000, 2);
 const bracket = (text: string): string => (text.startsWith("\u2212") ? `(${text})` : text);
 const radDeg = (v: number): string => `${fixed(v, 6)} rad = ${fixed(v * DEG, 4)}°`;
 
-/// alpha and beta to E_d and E_b, the same in both forms.
-function toErrors(form: string, alpha: number, beta: number, side: number, b: number): Step[] {
-  const radius = side / 2 / Math.sin(beta / 2);
-  const [eD, eB] = [(radius + b / 2) / (radius - b / 2), 90 / (90 - alpha * DEG)];
+/// Right over left diameter: both wheels roll on circles about one centre, `base` apart.
+function diameters(form: string, radius: number, base: number, baseName: unknown): Step {
   const bent = Number.isFinite(radius);
+  return {
+    name: html`E<sub>d</sub>`, formula: html`(R + ${baseName}/2) / (R \u2212 ${baseName}/2)`,
+    numbers: bent ? html`(${fixed(radius, 3)} + ${fixed(base / 2, 4)}) / (${fixed(radius, 3)} \u2212 ${fixed(base / 2, 4)})` : "1",
+    result: fixed(bent ? (radius + base / 2) / (radius - base / 2) : 1, 5), key: `${form}.e_d`,
+    why: "Right over left wheel diameter: both wheels roll on circles about one centre."};
+}
+
+function wheelbase(form: string, alpha: number, b: number): Step[] {
+  const eB = 90 / (90 - alpha * DEG);
   return [
-    {name: "R", formula: html`(L/2) / sin(\u03b2/2)`, numbers: html`${fixed(side / 2, 3)} m / sin(${fixed(beta * DEG / 2, 4)}°)`,
-     result: bent ? `${fixed(radius, 2)} m` : "\u221e, straight", why: "A leg is an arc when the wheels differ; this is its radius."},
-    {name: html`E<sub>d</sub>`, formula: html`(R + b/2) / (R \u2212 b/2)`,
-     numbers: bent ? html`(${fixed(radius, 3)} + ${fixed(b / 2, 4)}) / (${fixed(radius, 3)} \u2212 ${fixed(b / 2, 4)})` : "1",
-     result: fixed(bent ? eD : 1, 5), key: `${form}.e_d`, why: "Right over left wheel diameter: both wheels roll on circles about one centre."},
     {name: html`E<sub>b</sub>`, formula: html`90° / (90° \u2212 \u03b1)`, numbers: html`90° / (90° \u2212 ${bracket(fixed(alpha * DEG, 4))}°)`,
      result: fixed(eB, 5), key: `${form}.e_b`, why: "Actual over nominal wheelbase: what was told 90° turned by 90° less α."},
     {name: html`b<sub>actual</sub>`, formula: html`E<sub>b</sub> b<sub>nominal</sub>`, numbers: html`${fixed(eB, 5)} \u00b7 ${mm1(b)} mm`,
-     result: `${mm1(eB * b)} mm`},
+     result: `${mm1(eB * b)} mm`}];
+}
+
+function corrections(radius: number, base: number): Step[] {
+  const eD = Number.isFinite(radius) ? (radius + base / 2) / (radius - base / 2) : 1;
+  return [
     {name: html`c<sub>L</sub>`, formula: html`2 / (E<sub>d</sub> + 1)`, numbers: html`2 / (${fixed(eD, 5)} + 1)`, result: fixed(2 / (eD + 1), 5),
-     why: "The left wheel's distances are multiplied by it, those of the right one by c_R; the mean diameter stays as it was."},
-    {name: html`c<sub>R</sub>`, formula: html`2 / (1/E<sub>d</sub> + 1)`, numbers: html`2 / (1/${fixed(eD, 5)} + 1)`, result: fixed(2 / (1 / eD + 1), 5)},
-  ];
+     why: html`The left wheel's distances are multiplied by it, those of the right one by c<sub>R</sub>; the mean diameter stays as it was.`},
+    {name: html`c<sub>R</sub>`, formula: html`2 / (1/E<sub>d</sub> + 1)`, numbers: html`2 / (1/${fixed(eD, 5)} + 1)`, result: fixed(2 / (1 / eD + 1), 5)}];
+}
+
+const curved = (radius: number): string => (Number.isFinite(radius) ? `${fixed(radius, 2)} m` : "\u221e, straight");
+
+/// A leg as a chord of its arc, the nominal wheelbase: Borenstein and Feng.
+function byEnds(alpha: number, beta: number, side: number, b: number): Step[] {
+  const radius = side / 2 / Math.sin(beta / 2);
+  return [
+    {name: "R", formula: html`(L/2) / sin(\u03b2/2)`, numbers: html`${fixed(side / 2, 3)} m / sin(${fixed(beta * DEG / 2, 4)}°)`, result: curved(radius),
+     why: "A leg is an arc when the wheels differ; this is its radius."},
+    diameters("endpoint", radius, b, "b"), ...wheelbase("endpoint", alpha, b), ...corrections(radius, b)];
+}
+
+/// A leg as the arc itself, and the actual wheelbase: exact for errors of any size.
+function byHeadings(alpha: number, beta: number, side: number, b: number): Step[] {
+  const radius = side / beta;
+  const actual = b * 90 / (90 - alpha * DEG);
+  return [
+    ...wheelbase("heading", alpha, b),
+    {name: "R", formula: html`L / \u03b2`, numbers: html`${fixed(side, 3)} m / ${bracket(fixed(beta, 6))}`, result: curved(radius), why: "The arc of a leg is as long as the side."},
+    diameters("heading", radius, actual, html`b<sub>actual</sub>`), ...corrections(radius, actual)];
 }
 
 function centres(u: RunData["summary"]): Step[] {
@@ -78,8 +105,8 @@ export function workedSection(data: RunData): Section | null {
         b = ${mm1(b)} mm the nominal wheelbase; lengths are rounded for display only.</p>
       ${list("How far off", "The centres of the two clusters of figure 1, and the worse of them.", centres(u))}
       ${list("Endpoint form (Borenstein & Feng)", "α changes the total turn alike in both directions (type A), β bends the legs (type B). Small angles are taken for granted.", [
-        ends("+", alpha, "\u03b1"), ends("\u2212", beta, "\u03b2"), ...toErrors("endpoint", alpha, beta, side, b)])}
+        ends("+", alpha, "\u03b1"), ends("\u2212", beta, "\u03b2"), ...byEnds(alpha, beta, side, b)])}
       ${headings ? list("Heading form", "The same from the return headings: four turns and four legs each way, exact at any angle.", [
-        turned("\u2212", alphaH, "\u03b1"), turned("+", betaH, "\u03b2"), ...toErrors("heading", alphaH, betaH, side, b)]) : raw("")}`,
+        turned("\u2212", alphaH, "\u03b1"), turned("+", betaH, "\u03b2"), ...byHeadings(alphaH, betaH, side, b)]) : raw("")}`,
   };
 }
