@@ -40,6 +40,7 @@ Json provenance_of(const fs::path& folder) {
   if (!fs::exists(folder / "provenance.json")) return nullptr;
   Json json = json_of(folder / "provenance.json");
   json.erase("host");
+  json.erase("input");
   return json;
 }
 

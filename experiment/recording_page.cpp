@@ -145,6 +145,7 @@ Json recording_report_json(const fs::path& folder) {
   if (scenario) json["floor"] = floor_scene_json(rig_for(*scenario, load_scenario_robot(*scenario), {}).floor);
   if (auto provenance = file_json(folder / "provenance.json")) {
     provenance->erase("host");
+    provenance->erase("input");
     json["provenance"] = *provenance;
   }
   return json;

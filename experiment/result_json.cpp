@@ -223,6 +223,7 @@ Json provenance_json(const std::string& input, std::uint64_t seed) {
 Json page_provenance_json(const std::string& input, std::uint64_t seed) {
   Json json = provenance_json(input, seed);
   json.erase("host");
+  json.erase("input");
   return json;
 }
 

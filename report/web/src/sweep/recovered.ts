@@ -14,8 +14,8 @@ type Error = "e_d" | "e_b";
 
 export function recoveredSection(data: SweepData): Section | null {
   const varies = (name: string) => has(data, name) && new Set(data.rows.map((r) => numberOf(data, r, name)).filter(isNumber)).size > 1;
-  const errors = (["e_d", "e_b"] as const).filter((e) => has(data, `injected.${e}`));
-  if (!errors.some((e) => varies(`injected.${e}`))) return null;
+  const errors = (["e_d", "e_b"] as const).filter((e) => varies(`injected.${e}`));
+  if (!errors.length) return null;
   const stride = Math.ceil(data.rows.length / MOST);
   const rows = data.rows.filter((_, i) => i % stride === 0);
   const panels = (["value", "error"] as const).flatMap((kind) => errors.map((error) => ({kind, error})));

@@ -22,13 +22,13 @@ function tiles(data: SweepData): Tile[] {
 function checks(data: SweepData): Html {
   const all = data.checks.flatMap((c) => c.unmet.map((u) => [u.point ?? "\u2013", u.where, c.figure, short(u.value)]));
   const more = all.length > MOST_ROWS ? `, the first ${MOST_ROWS} of ${all.length}` : "";
-  return html`${table({caption: "What the sweep asks for", head: ["", "expectation", "checked", "not met"], text: [1], keepEmpty: true, rows: data.checks.map((c) => [
+  return html`${table({caption: "What the sweep asks for", head: ["", "expectation", "checked", "not met"], text: [1], keepEmpty: true, stack: true, rows: data.checks.map((c) => [
     c.met ? html`<b class="good">met</b>` : html`<b class="bad">not met</b>`, c.expectation, c.checked, c.unmet.length])})}
-    ${table({caption: `Not met${more} (SI units)`, head: ["point", "where", "figure", "value"], text: [1, 2], rows: all.slice(0, MOST_ROWS)})}`;
+    ${table({caption: `Not met${more} (SI units)`, head: ["point", "where", "figure", "value"], text: [1, 2], stack: true, rows: all.slice(0, MOST_ROWS)})}`;
 }
 
 const failed = (data: SweepData): Html => table({
-  caption: "Points that could not be driven", head: ["point", "where", "why"], text: [1, 2],
+  caption: "Points that could not be driven", head: ["point", "where", "why"], text: [1, 2], stack: true,
   rows: data.failed.slice(0, MOST_ROWS).map((f) => [f.point, f.where, f.error])});
 
 /// What to show first: the sweep file's wish, else the axes with the most values.
