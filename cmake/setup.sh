@@ -1,15 +1,18 @@
+# shellcheck shell=bash
 # Sourced by ./umbsim, ./test and bench/: installs what is missing, configures, builds. Sets `root` and `build`.
 # Packages by use. Everything comes from Debian.
 build_packages="g++ cmake ninja-build pkg-config git libbullet-dev libeigen3-dev liburdfdom-dev libtinyxml2-dev \
 libyaml-cpp-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtbb-dev libboost-dev libsqlite3-dev libssl-dev \
 libceres-dev libfastcdr-dev libzstd-dev liblz4-dev librosbag-storage-dev nodejs npm"
-test_packages="libgtest-dev libgmock-dev chromium valgrind slurm-wlm munge sqlite3 libmujoco-dev"
+test_packages="libgtest-dev libgmock-dev chromium valgrind slurm-wlm munge sqlite3 shellcheck libmujoco-dev"
+# shellcheck disable=SC2034  # used by bench/
 bench_packages="libbenchmark-dev libmujoco-dev valgrind"
 
 root=$(cd "${BASH_SOURCE[0]%setup.sh}.." && pwd)
 build="$root/build/release"
 program="$build/umbsim"
 stamp="$build/umbsim.stamp"
+first_build=no
 dpkg_status="${DPKG_ADMINDIR:-/var/lib/dpkg}/status"
 
 say() { printf 'umbsim: %s\n' "$*" >&2; }
@@ -30,6 +33,7 @@ install_missing() {
   say "installing from Debian:$missing"
   local log
   log=$(mktemp)
+  # shellcheck disable=SC2086  # names of packages, split on purpose
   if ! { as_root apt-get update -q && as_root env DEBIAN_FRONTEND=noninteractive \
          apt-get install -y -q --no-install-recommends $missing; } > "$log" 2>&1 < /dev/null 9>&-; then
     tail -n 20 "$log" >&2
@@ -57,11 +61,14 @@ show_log() {
   return 1
 }
 
-# run_ninja TARGET...: as `quietly`, with a line of progress on a terminal while something is compiled or linked.
+# run_ninja TARGET...: as `quietly`, with a line of progress on a terminal while something is compiled or linked, and
+# elsewhere a line every ten per cent of a first build.
 run_ninja() {
   local status=0
   if [ -t 2 ]; then
     NINJA_STATUS='@%p ' ninja -C "$build" "$@" 2>&1 | show_progress > "$build/build.log" || status=$?
+  elif [ "$first_build" = yes ]; then
+    NINJA_STATUS='@%p ' ninja -C "$build" "$@" 2>&1 | say_progress > "$build/build.log" || status=$?
   else
     NINJA_STATUS='@%p ' ninja -C "$build" "$@" > "$build/build.log" 2>&1 || status=$?
   fi
@@ -78,6 +85,19 @@ show_progress() {
     esac
   done
   [ -z "$shown" ] || printf '\r\033[K' >&2
+}
+
+# Copies ninja's lines, and says when another tenth of them is done.
+say_progress() {
+  local line percent tenths=0
+  while IFS= read -r line; do
+    printf '%s\n' "$line"
+    [[ "$line" =~ ^@\ *([0-9]+)% ]] || continue
+    percent=${BASH_REMATCH[1]}
+    [ $((percent / 10)) -gt "$tenths" ] || continue
+    tenths=$((percent / 10))
+    say "built $((tenths * 10)) %"
+  done
 }
 
 # A build folder knows where its project stood when it was configured.
@@ -100,6 +120,7 @@ build_targets() {
   forget_other_place
   choose_pages
   if [ ! -f "$build/build.ninja" ]; then
+    first_build=yes
     say "configuring and building in build/release; this takes some minutes the first time"
   elif ! grep -qx "UMBSIM_PAGES:[A-Z]*=$pages" "$build/CMakeCache.txt"; then
     rm -f "$build/build.ninja"
@@ -154,17 +175,20 @@ program_is_current() {
 build_program() {
   program_is_current && return  # another launcher has just built it
   rm -f "$stamp"
+  # shellcheck disable=SC2086  # names of packages, split on purpose
   install_missing $build_packages || return
   touch "$stamp.begin" || return
   local built_commit
   built_commit=$(commit)
   build_targets umbsim_program || return
+  # shellcheck disable=SC2015  # a stamp that cannot be written is none
   (echo "$root"; echo "$built_commit"; files_built) > "$stamp.new" && touch -r "$stamp.begin" "$stamp.new" &&
     mv "$stamp.new" "$stamp" || true
 }
 
 # Builds the program and every test. ninja is asked every time: a test that someone removed is built again.
 build_all() {
+  # shellcheck disable=SC2086  # names of packages, split on purpose
   install_missing $build_packages $test_packages || return
   # GoogleTest may have come after the program was configured.
   [ -f "$build/tests/CTestTestfile.cmake" ] || rm -f "$build/build.ninja"
