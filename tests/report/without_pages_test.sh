@@ -12,10 +12,10 @@ fail() { echo "FAIL: $*"; exit 1; }
 [ ! -e run/report.html ] || fail "a report.html is there"
 grep -q "no report.html: this program was built without pages" said || fail "run does not say that there is no page: $(tail -n 1 said)"
 "$program" sweep "$project/tests/web/sampled.yaml" --set runs.per_direction=1 --out sweep > said || fail "sweep ends with $?"
-[ -s sweep/sweep.json ] && [ ! -e sweep/report.html ] || fail "sweep: $(ls sweep)"
+if [ ! -s sweep/sweep.json ] || [ -e sweep/report.html ]; then fail "sweep: $(ls sweep)"; fi
 grep -q "built without pages" said || fail "sweep does not say it"
 "$program" calibrate run --out calibration > said || fail "calibrate ends with $?"
-[ -s calibration/calibration.json ] && [ ! -e calibration/report.html ] || fail "calibrate: $(ls calibration)"
+if [ ! -s calibration/calibration.json ] || [ -e calibration/report.html ]; then fail "calibrate: $(ls calibration)"; fi
 "$program" report run > said 2>&1 && fail "report makes a page out of nothing"
 grep -q "built without pages" said || fail "report says: $(cat said)"
 echo "ok"
