@@ -13,7 +13,6 @@ using Eigen::Vector3d;
 constexpr double kLeastLoad = 0.02;
 // Turning speed that a newton metre leaves in a sticking patch: both wheels' rows are nearly the same.
 constexpr double kSpinMobility = 1e-6;  // rad/s per N m
-constexpr double kSpeculative_m = 0.001;  // contacts this far ahead are watched, beyond what the step can travel
 
 // row . u, with the size known when compiling where it is the usual one.
 double speed_along(const DofVector& row, const DofVector& u) {
@@ -22,67 +21,102 @@ double speed_along(const DofVector& row, const DofVector& u) {
 
 }  // namespace
 
-void World::State::add_contacts(double step_s, const DofVector& u) {
+// All contacts of a step, and a row of the general step for each of their directions. `found`: find_contacts() has
+// them.
+void World::State::add_contacts(double step_s, const DofVector& u, bool found) {
+  if (!found) find_contacts(step_s, kSpeculative_m + step_s * u.segment<3>(3).norm(), 0, {u[6], u[7]});
   rows = 0;
   problem.contacts = problem.motors = 0;
   problem.b.resize(kMaxRows);
-  const double watch_m = kSpeculative_m + step_s * u.segment<3>(3).norm();
+  for (int i = 0; i < contacts; ++i) add_contact_rows(contact[i], u);
+  add_spin_friction(u, step_s);
+}
+
+// Supports whose gap is less than `watch_m`. Another that is less than `doubt_m` above this makes the set doubtful.
+void World::State::find_contacts(double step_s, double watch_m, double doubt_m,
+                                 const std::array<double, 2>& wheel_radps) {
+  contacts = 0;
+  doubtful = false;
+  const Matrix3d R_BW = body.rotation().transpose();
+  const bool plain = floor.ripples.empty() && floor.cables.empty() && floor.patches.empty();
   for (int i = 0; i < int(supports.size()); ++i) {
-    const RollingShape round = shape(supports[i]);
-    const NearestPoint ground = nearest_on_floor(floor, round);
+    const Support& s = supports[i];
+    const Joint hinge = s.joint >= 0 ? body.current(s.joint) : Joint{-1, s.centre_m, Vector3d::Zero()};
     // A wheel that hangs comes down.
-    const double hanging_m = sprung ? step_s * std::abs(spring_speed(supports[i], 0, step_s)) : 0;
-    if (ground.distance_m < watch_m + hanging_m) add_contact(i, ground, step_s, u);
+    const double hanging_m = sprung ? step_s * std::abs(spring_speed(s, 0, step_s)) : 0;
+    const auto watch = [&](double gap_m, const Vector3d& normal, double friction) {
+      if (contacts == 8) return;
+      if (gap_m < watch_m + hanging_m)
+        add_contact(i, hinge, normal, gap_m, friction, step_s, wheel_radps);
+      else
+        doubtful = doubtful || gap_m < watch_m + hanging_m + doubt_m;
+    };
+    if (plain) {
+      const Vector3d up = R_BW.col(2);
+      const double centre_m = body.position().z() + up.dot(rim_centre(s, hinge) + shift(s));
+      const double leaning = up.dot(hinge.axis);
+      watch(centre_m - outer_radius(s) * (s.disc ? std::sqrt(1 - leaning * leaning) : 1), up, floor.friction);
+      continue;
+    }
+    const RollingShape round = shape(s);
+    const NearestPoint ground = nearest_on_floor(floor, round);
+    watch(ground.distance_m, R_BW * ground.normal, friction_at(floor, ground.point_m.x(), ground.point_m.y()));
     for (const Cable& cable : floor.cables) {
       NearestPoint nearest;
       const double reach_m = round.radius_m + cable.length_m + cable.height_m;
       if (std::hypot(round.centre_m.x() - cable.x_m, round.centre_m.y() - cable.y_m) > reach_m) continue;
-      if (nearest_on_cable(floor, cable, round, nearest) && nearest.distance_m < watch_m && problem.contacts < 8) {
-        add_contact(i, nearest, step_s, u);
-      }
+      if (contacts == 8 || !nearest_on_cable(floor, cable, round, nearest)) continue;
+      if (nearest.distance_m < watch_m)
+        add_contact(i, hinge, R_BW * nearest.normal, nearest.distance_m,
+                    friction_at(floor, nearest.point_m.x(), nearest.point_m.y()), step_s, wheel_radps);
+      else
+        doubtful = doubtful || nearest.distance_m < watch_m + doubt_m;
     }
   }
-  add_spin_friction(u, step_s);
 }
 
 // Unilateral row. A gap may close within the step but not become negative. In contact the row is a spring and damper
 // taken implicitly: impulse x = h (k (sink - h v) - d v), that is v + x / (h (h k + d)) = sink k / (h k + d).
 // Friction rows along the wheel's rolling direction and across it, at the rolling radius. An eccentric rim is taken
 // where it is in the middle of the step: its way round the axle is then exact to second order.
-void World::State::add_contact(int support, const NearestPoint& nearest, double step_s, const DofVector& u) {
+void World::State::add_contact(int support, const Joint& hinge, const Vector3d& normal, double gap_m,
+                               double floor_friction, double step_s, const std::array<double, 2>& wheel_radps) {
   const Support& s = supports[support];
-  const Matrix3d R_BW = body.rotation().transpose();
-  const Vector3d normal = R_BW * nearest.normal;
-  const Joint hinge = s.joint >= 0 ? body.current(s.joint) : Joint{-1, s.centre_m, Vector3d::UnitY()};
-  const Vector3d& axis = hinge.axis;
-  const Vector3d towards = s.disc ? Vector3d((axis * axis.dot(normal) - normal).normalized()) : Vector3d(-normal);
-  const double half_step_rad = s.wheel >= 0 ? 0.5 * step_s * u[6 + s.wheel] : 0;
+  Contact& c = contact[contacts++];
+  c.support = support;
+  const Vector3d axis = s.joint >= 0 ? hinge.axis : Vector3d(Vector3d::UnitY());
+  const Vector3d level = axis.cross(normal);
+  const double leaning = axis.dot(normal), share = 1 / level.norm();
+  c.direction[0] = normal;
+  c.direction[1] = share * level;
+  c.direction[2] = normal.cross(c.direction[1]);
+  const Vector3d towards = s.disc ? Vector3d(share * (leaning * axis - normal)) : Vector3d(-normal);
+  const double half_step_rad = s.wheel >= 0 ? 0.5 * step_s * wheel_radps[s.wheel] : 0;
   const Vector3d rim = rim_centre(s, hinge, half_step_rad) + rolling_radius(s) * towards + shift(s);
-  const double friction =
-      s.friction_scale * friction_at(floor, nearest.point_m.x(), nearest.point_m.y()) + s.own_friction;
-  problem.contact[problem.contacts] = {rows, friction};
-  contact_support[problem.contacts++] = support;
+  c.lever = body.lever(s.joint, rim, shift(s));
+  c.friction = s.friction_scale * floor_friction + s.own_friction;
 
   const double spring = step_s * s.stiffness_npm + s.damping_nspm;
   const bool soft = s.stiffness_npm > 0;
-  const double gap_m = nearest.distance_m;
-  const MultiBody::Lever lever = body.lever(s.joint, rim, shift(s));
-  body.jacobian(lever, normal, row[rows]);
-  compliance[rows] = soft ? 1 / (step_s * spring) : kMobility / step_s;
-  problem.b[rows] = speed_along(row[rows], u) + (soft && gap_m < 0 ? gap_m * s.stiffness_npm / spring : gap_m / step_s);
-  ++rows;
-  if (friction <= 0) return;
-  const Vector3d along = axis.cross(normal).normalized();
-  const Vector3d across = normal.cross(along);
+  c.compliance[0] = soft ? 1 / (step_s * spring) : kMobility / step_s;
+  c.offset[0] = soft && gap_m < 0 ? gap_m * s.stiffness_npm / spring : gap_m / step_s;
+  if (c.friction <= 0) return;
   const TyreSlip slip = tyre_slip(s);
-  const double creep[2] = {std::max(slip.along, slip_of_turning_patch(s, friction, normal)), slip.across};
-  const Vector3d surface = R_BW * slip.surface_mps;
-  for (int i = 0; i < 2; ++i) {
-    const Vector3d& direction = i == 0 ? along : across;
-    body.jacobian(lever, direction, row[rows]);
-    compliance[rows] = (kMobility + creep[i]) / step_s;
-    problem.b[rows] = speed_along(row[rows], u) - surface.dot(direction);
-    ++rows;
+  c.compliance[1] = (kMobility + std::max(slip.along, slip_of_turning_patch(s, c.friction, normal))) / step_s;
+  c.compliance[2] = (kMobility + slip.across) / step_s;
+  c.offset[1] = c.offset[2] = 0;
+  if (floor.drift_x == 0 && floor.drift_y == 0) return;
+  const Vector3d surface = body.rotation().transpose() * slip.surface_mps;
+  for (int i = 1; i < 3; ++i) c.offset[i] = -surface.dot(c.direction[i]);
+}
+
+void World::State::add_contact_rows(const Contact& c, const DofVector& u) {
+  problem.contact[problem.contacts] = {rows, c.friction};
+  contact_support[problem.contacts++] = c.support;
+  for (int i = 0; i < (c.friction > 0 ? 3 : 1); ++i, ++rows) {
+    body.jacobian(c.lever, c.direction[i], row[rows]);
+    compliance[rows] = c.compliance[i];
+    problem.b[rows] = speed_along(row[rows], u) + c.offset[i];
   }
 }
 
@@ -96,7 +130,8 @@ TyreSlip World::State::tyre_slip(const Support& s) const {
   const double speed = std::abs(body.velocity()[6 + s.wheel]) * w.radius_m;
   const double rolled = (std::abs(body.velocity()[6]) + std::abs(body.velocity()[7])) / 2 * w.radius_m;  // by the robot
   const double load_n = creeping_load(s);
-  return {w.creep_along * speed / load_n, w.creep_across * speed / load_n,
+  return {w.creep_along * speed / load_n,
+          w.creep_across * speed / load_n,
           {rolled * floor.drift_x, rolled * floor.drift_y, 0}};
 }
 
@@ -117,23 +152,28 @@ double World::State::slip_of_turning_patch(const Support& s, double friction, co
 // omega while it rolls at v, points slide beyond y = mu C v / omega from its middle. With x that y over w / 2, M is
 //   mu N w / 4 times (1 - x^2 / 3) for x < 1, and N w^2 / (12 C) omega / v, where nothing slides, for x > 1,
 // less the square of the share of its friction that the contact gives along.
+TurningPatch World::State::turning_patch(const Contact& c, double step_s) const {
+  const Support& s = supports[c.support];
+  if (s.wheel < 0 || robot.wheels[s.wheel].patch_width_m == 0) return {};
+  const double width_m = robot.wheels[s.wheel].patch_width_m;
+  const double creep = tyre_slip(s).along;
+  const double turning = std::abs(c.direction[0].dot(body.velocity().head<3>()));
+  const double grip_n = c.friction * load(s);
+  const double given = grip_n > 0 ? std::min(std::abs(loads.wheel_along_n[s.wheel]) / grip_n, 1.0) : 0;
+  const double sticking = 2 * grip_n * creep;  // x = sticking / (omega w)
+  const double x = sticking < turning * width_m ? sticking / (turning * width_m) : 0;
+  return {true, grip_n * width_m / 4 * (1 - x * x / 3) * (1 - given * given) * step_s,
+          (kSpinMobility + 12 * creep / (width_m * width_m)) / step_s};
+}
+
 void World::State::add_spin_friction(const DofVector& u, double step_s) {
-  for (int i = 0; i < problem.contacts; ++i) {
-    const ContactRows& c = problem.contact[i];
-    const Support& s = supports[contact_support[i]];
-    if (s.wheel < 0 || robot.wheels[s.wheel].patch_width_m == 0) continue;
-    const double width_m = robot.wheels[s.wheel].patch_width_m;
-    const double creep = tyre_slip(s).along;
+  for (int i = 0; i < contacts; ++i) {
+    const TurningPatch patch = turning_patch(contact[i], step_s);
+    if (!patch.turns) continue;
     row[rows] = DofVector::Zero(body.dofs());
-    row[rows].head<3>() = row[c.normal].segment<3>(3);  // the contact's normal
-    const double turning = std::abs(speed_along(row[rows], body.velocity()));
-    const double grip_n = c.friction * load(s);
-    const double given = grip_n > 0 ? std::min(std::abs(loads.wheel_along_n[s.wheel]) / grip_n, 1.0) : 0;
-    const double sticking = 2 * grip_n * creep;  // x = sticking / (omega w)
-    const double x = sticking < turning * width_m ? sticking / (turning * width_m) : 0;
-    const double limit = grip_n * width_m / 4 * (1 - x * x / 3) * (1 - given * given) * step_s;
-    problem.motor[problem.motors++] = {rows, limit};
-    compliance[rows] = (kSpinMobility + 12 * creep / (width_m * width_m)) / step_s;
+    row[rows].head<3>() = contact[i].direction[0];
+    problem.motor[problem.motors++] = {rows, patch.limit};
+    compliance[rows] = patch.compliance;
     problem.b[rows] = speed_along(row[rows], u);
     ++rows;
   }

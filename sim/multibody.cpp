@@ -90,6 +90,7 @@ MultiBody::MultiBody(const RobotModel& robot) : robot_(robot) {
   inverse_mass_.resize(dofs(), dofs());
   u_ = DofVector::Zero(dofs());
   set_pose(Quaterniond::Identity(), Vector3d::Zero());
+  add_up_masses();
   if (!constant_mass_) return;
   compute_inverse_mass();
   compute_held_motors();
@@ -243,14 +244,18 @@ void MultiBody::integrate(double step_s) {
   set_pose(q_WB_ * q_turn, p_WB_);
   u_.segment<3>(3) = q_turn.conjugate() * Vector3d(u_.segment<3>(3));
   for (int j = 0; j < int(joints_.size()); ++j) angle_rad_[j] += step_s * u_[6 + j];
+  swing_legs();
 }
 
 // A caster's wheel, carried round by its fork.
 Joint MultiBody::swung(Joint j) const {
-  const Joint& fork = joints_[j.parent];
-  const Matrix3d swing = Eigen::AngleAxisd(joint_angle(j.parent), fork.axis).toRotationMatrix();
-  j.pivot_m = fork.pivot_m + swing * (j.pivot_m - fork.pivot_m);
-  j.axis = swing * j.axis;
+  const SwivelLeg& leg = legs_[std::size_t(j.parent - 2) / 2];
+  const auto swing = [&](const Vector3d& v) {
+    return Vector3d(leg.cosine * v.x() - leg.sine * v.y(), leg.sine * v.x() + leg.cosine * v.y(), v.z());
+  };
+  const Vector3d& pivot_m = joints_[j.parent].pivot_m;
+  j.pivot_m = pivot_m + swing(j.pivot_m - pivot_m);
+  j.axis = leg.axle;
   return j;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -31,6 +32,42 @@ struct Joint {
   Eigen::Vector3d axis;      ///< base frame at zero joint angles
 };
 
+/// Mass, its first moment and its inertia about a point that its owner names.
+struct MassAbout {
+  double mass_kg = 0;
+  Eigen::Vector3d moment_kgm = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d inertia_kgm2 = Eigen::Matrix3d::Zero();
+};
+
+/// A swivelling caster, fork and wheel, about a point of its swivel axis. Base frame.
+struct SwivelLeg {
+  int fork = 0;   ///< joints
+  int wheel = 0;
+  Eigen::Vector3d pivot_m;  ///< from the base's centre of mass
+  MassAbout drawn;          ///< at swivel angle 0
+  double spin_kgm2 = 0;     ///< of its wheel about the axle
+  // As it is swung now.
+  double cosine = 1, sine = 0;
+  MassAbout now;
+  Eigen::Vector3d axle = Eigen::Vector3d::UnitY();
+};
+
+/// The robot while both motors hold their set-points: unknown is what changes of the base's velocity (angular, then
+/// linear, of its centre of mass) and, for each leg, of the rates of fork and wheel. Moments are about the base's centre of
+/// mass, base frame.
+struct HeldBody {
+  MassAbout all;                   ///< with every joint locked
+  Eigen::Vector3d turning_kgm2ps;  ///< change of momentum in the step without contacts, less what the wheels take of it
+  Eigen::Vector3d pushing_kgmps;   ///< to get to their set speeds
+  struct Leg {
+    Eigen::Vector3d turning, pushing;  ///< momentum per rate of the fork
+    Eigen::Vector3d spinning;          ///< angular momentum per rate of the wheel
+    double fork_kgm2, wheel_kgm2;
+    double fork_kgm2ps, wheel_kgm2ps;  ///< change of momentum along each joint in the step without contacts
+  } leg[4];
+  int legs = 0;
+};
+
 /// The robot as a Bullet btMultiBody, seen in base-frame coordinates.
 /// A velocity vector u is (base angular velocity, velocity of the base's centre of mass, joint speeds), the first two
 /// resolved in the base frame.
@@ -52,7 +89,10 @@ class MultiBody {
   const Eigen::Matrix3d& rotation() const { return R_WB_; }
   const Eigen::Vector3d& position() const { return p_WB_; }
   double joint_angle(int joint) const { return angle_rad_[joint]; }
-  void set_joint_angle(int joint, double angle_rad) { angle_rad_[joint] = angle_rad; }
+  void set_joint_angle(int joint, double angle_rad) {
+    angle_rad_[joint] = angle_rad;
+    swing_legs();
+  }
   const DofVector& velocity() const { return u_; }
   void set_velocity(const DofVector& u) { u_ = u; }
 
@@ -61,6 +101,12 @@ class MultiBody {
   /// terms of bodies of revolution in closed form (equal to round-off, and seven times faster).
   DofVector free_velocity(double step_s);
   DofVector free_velocity_articulated(double step_s);
+
+  /// How momentum changes in `step_s` under gravity and gyroscopic forces while the motors hold `target_radps`, and the
+  /// masses that carry it (sim/held_body.cpp): the equations of motion of the same tree in closed form, for sim/rolling.cpp.
+  HeldBody held(double step_s, const std::array<double, 2>& target_radps) const;
+  const std::vector<SwivelLeg>& legs() const { return legs_; }
+  const Eigen::Vector3d& centre_of_mass() const { return com_B_; }  ///< of the base
 
   /// M^-1, (dofs, dofs), for the same coordinates. Constant, hence computed once, where no caster swivels: the
   /// drive wheels are bodies of revolution.
@@ -98,6 +144,9 @@ class MultiBody {
  private:
   struct Part;
   Joint swung(Joint joint) const;
+  void add_up_masses();
+  void swing_legs();
+  void add_leg(const SwivelLeg& leg, double step_s, HeldBody& held) const;
   int add_part(const Part& part, int parent, const Joint& hinge);
   void build_wheels(const RobotModel& robot);
   void build_casters(const RobotModel& robot);
@@ -115,6 +164,8 @@ class MultiBody {
   std::unique_ptr<btMultiBody> body_;
   Eigen::Matrix3d R_BK_;  ///< principal axes K of the base, Bullet's base frame
   Eigen::Vector3d com_B_;
+  MassAbout locked_;  ///< base and drive wheels, about the base's centre of mass
+  std::vector<SwivelLeg> legs_;
   Eigen::Vector3d gravity_mps2_ = Eigen::Vector3d::Zero();
   bool constant_mass_ = true;
   DofMatrix inverse_mass_;

@@ -75,6 +75,7 @@ void World::resume(const Snapshot& then, const Pose2& X_moved) {
   s.heading_rad = then.heading_rad + X_moved.theta_rad;
   s.stood_s = then.time_s;
   s.impulses = then.impulses;
+  s.grip = {};
 }
 
 }  // namespace umbsim

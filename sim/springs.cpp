@@ -54,6 +54,10 @@ bool World::State::change_stops(double step_s) {
     const int first = problem.contact[i].normal, size = problem.contact[i].friction > 0 ? 3 : 1;
     for (int r = first; r < first + size; ++r) force_n[contact_support[i]] += upwards(row[r]) * impulses[r] / step_s;
   }
+  return change_stops(step_s, force_n);
+}
+
+bool World::State::change_stops(double step_s, const double (&force_n)[8]) {
   bool changed = false;
   for (std::size_t i = 0; i < supports.size(); ++i) {
     Support& s = supports[i];

@@ -1,7 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include <fmt/format.h>
 
 #include "core/error.h"
 #include "sim/world_state.h"
@@ -13,17 +13,19 @@ namespace {
 constexpr int kBase = 6;
 constexpr int kBaseAndWheels = 8;
 
-// Share of the caster wheel's rolling rate below which the friction of its swivel bearing fades: a shaken bearing
-// creeps (docs/contact.md).
-constexpr double kSwivelFade = 0.05;
-
 }  // namespace
 
 void World::State::step(double step_s, const std::array<double, 2>& target_radps) {
-  DofVector u = body.free_velocity(step_s);
-  add_pushes(step_s, u);
-  add_pull(step_s, u);
-  if (!step_with_holding_motors(step_s, target_radps, u)) step_with_motor_rows(step_s, target_radps, u);
+  const Impulse given = given_impulse(step_s);
+  const bool kicked = !given.isZero(0);
+  const bool found = may_roll() && find_certain_contacts(step_s, target_radps, kicked);
+  DofVector u;
+  if (!found || !step_rolling(step_s, target_radps, given, u)) {
+    u = body.free_velocity(step_s);
+    if (kicked) u += body.inverse_mass().leftCols<6>().lazyProduct(given);
+    if (!step_with_holding_motors(step_s, target_radps, found && !kicked, u))
+      step_with_motor_rows(step_s, target_radps, u);
+  }
   count(report);
   note_loads(step_s);
   note_strain(step_s);
@@ -42,14 +44,15 @@ void World::State::step(double step_s, const std::array<double, 2>& target_radps
 // Nearly always both motors can hold their set-points: the wheel speeds are then known, and the contacts act on a
 // robot whose wheels cannot give. Exact if the motor impulses that follow are within their limits; otherwise u is as it
 // was.
-bool World::State::step_with_holding_motors(double step_s, const std::array<double, 2>& target_radps, DofVector& u) {
+bool World::State::step_with_holding_motors(double step_s, const std::array<double, 2>& target_radps, bool found,
+                                            DofVector& u) {
   const HeldMotors* held = body.held_motors();
   const auto& motor = drivetrain.motor;
   if (!held || motor[0].backlash_rad > 0 || motor[1].backlash_rad > 0) return false;
   const Eigen::Vector2d change(target_radps[0] - u[6], target_radps[1] - u[7]);
   DofVector v(kBaseAndWheels);
   v.head<kBaseAndWheels>() = u.head<kBaseAndWheels>() + held->gain.lazyProduct(change);
-  add_contacts(step_s, v);
+  add_contacts(step_s, v, found);
   assemble<kBase>(held->inverse_mass.data(), kBase, kBaseAndWheels);
   solve(step_s);
 
@@ -67,14 +70,18 @@ bool World::State::step_with_holding_motors(double step_s, const std::array<doub
 void World::State::step_with_motor_rows(double step_s, const std::array<double, 2>& target_radps, DofVector& u) {
   add_contacts(step_s, u);
   for (int i = 0; i < 2; ++i) {
-    if (drivetrain.motor[i].backlash_rad > 0) add_backlash(i, target_radps[i], step_s, u);
-    else if (drivetrain.motor[i].torque_limit_nm > 0) add_motor(i, target_radps[i], step_s, u);
+    if (drivetrain.motor[i].backlash_rad > 0)
+      add_backlash(i, target_radps[i], step_s, u);
+    else if (drivetrain.motor[i].torque_limit_nm > 0)
+      add_motor(i, target_radps[i], step_s, u);
   }
   add_swivel_friction(step_s, u);
   const DofMatrix& M_inverse = body.inverse_mass();
   const int dofs = body.dofs();
-  if (dofs == kBaseAndWheels) assemble<kBaseAndWheels>(M_inverse.data(), dofs, dofs);
-  else assemble<Eigen::Dynamic>(M_inverse.data(), dofs, dofs);
+  if (dofs == kBaseAndWheels)
+    assemble<kBaseAndWheels>(M_inverse.data(), dofs, dofs);
+  else
+    assemble<Eigen::Dynamic>(M_inverse.data(), dofs, dofs);
   solve(step_s);
   for (int i = 0; i < rows; ++i) u += response[i] * impulses[i];
 }
@@ -96,7 +103,7 @@ void World::State::add_swivel_friction(double step_s, const DofVector& u) {
     const int wheel = body.caster_wheel_joint(int(i)), fork = body.joints()[wheel].parent;
     problem.motor[problem.motors++] = {rows, c.swivel_friction_nm * step_s};
     row[rows] = DofVector::Unit(body.dofs(), 6 + fork);
-    compliance[rows] = kSwivelFade * std::abs(body.velocity()[6 + wheel]) / (c.swivel_friction_nm * step_s);
+    compliance[rows] = swivel_compliance(c.swivel_friction_nm, body.velocity()[6 + wheel], step_s);
     problem.b[rows] = u[6 + fork];
     ++rows;
   }
@@ -142,24 +149,31 @@ std::array<double, 2> World::State::follow_commands(double step_s, double part) 
   return mean_radps;
 }
 
-void World::State::add_pushes(double step_s, DofVector& u) {
+Impulse World::State::given_impulse(double step_s) const {
+  Impulse given = Impulse::Zero();
+  if (!pushes.empty()) add_pushes(step_s, given);
+  if (pull.force_x_n != 0 || pull.force_y_n != 0 || pull.yaw_nm != 0) add_pull(step_s, given);
+  return given;
+}
+
+void World::State::add_pushes(double step_s, Impulse& given) const {
   for (const Push& p : pushes) {
     const double overlap_s = std::min(time_s + step_s, p.time_s + p.duration_s) - std::max(time_s, p.time_s);
     if (overlap_s <= 0) continue;
-    DofVector force;
-    body.jacobian(-1, {p.ahead_m, 0, p.height_m}, {std::cos(p.direction_rad), std::sin(p.direction_rad), 0}, force);
-    u += body.inverse_mass().lazyProduct(force) * (p.impulse_ns * overlap_s / p.duration_s);
+    const Eigen::Vector3d arm = Eigen::Vector3d(p.ahead_m, 0, p.height_m) - body.centre_of_mass();
+    const Eigen::Vector3d impulse = p.impulse_ns * overlap_s / p.duration_s *
+                                    Eigen::Vector3d(std::cos(p.direction_rad), std::sin(p.direction_rad), 0);
+    given.head<3>() += arm.cross(impulse);
+    given.tail<3>() += impulse;
   }
 }
 
-void World::State::add_pull(double step_s, DofVector& u) {
-  if (pull.force_x_n == 0 && pull.force_y_n == 0 && pull.yaw_nm == 0) return;
+void World::State::add_pull(double step_s, Impulse& given) const {
   const Eigen::Matrix3d R_BW = body.rotation().transpose();
-  DofVector force;
-  body.jacobian(-1, {pull.ahead_m, pull.left_m, pull.height_m}, R_BW * Eigen::Vector3d(pull.force_x_n, pull.force_y_n, 0),
-                force);
-  force.head<3>() += R_BW.col(2) * pull.yaw_nm;
-  u += body.inverse_mass().lazyProduct(force) * step_s;
+  const Eigen::Vector3d arm = Eigen::Vector3d(pull.ahead_m, pull.left_m, pull.height_m) - body.centre_of_mass();
+  const Eigen::Vector3d impulse = step_s * (R_BW * Eigen::Vector3d(pull.force_x_n, pull.force_y_n, 0));
+  given.head<3>() += arm.cross(impulse) + step_s * pull.yaw_nm * R_BW.col(2);
+  given.tail<3>() += impulse;
 }
 
 // A = J M^-1 J^T + compliance, over the first N degrees of freedom. M_inverse is symmetric: its layout does not matter.
@@ -211,7 +225,9 @@ void World::State::track_heading() {
 
 void World::State::check_finite() const {
   const DofVector& u = body.velocity();
-  if (u.allFinite() && body.position().allFinite()) return;
+  double sum = body.position().sum();
+  for (int i = 0; i < body.dofs(); ++i) sum += u[i];
+  if (std::isfinite(sum)) return;
   std::string which = u.head<6>().allFinite() ? "a wheel or caster" : "the base";
   throw RunError(fmt::format("{}: the state became non-finite after {:.3f} simulated seconds, in {}", robot.urdf,
                              cost.simulated_s, which));

@@ -68,10 +68,14 @@ Vector3d World::State::rim_centre(const Support& s, const Joint& hinge, double a
   return hinge.pivot_m + w.eccentricity_m * (Eigen::AngleAxisd(angle_rad, hinge.axis) * forward);
 }
 
-RollingShape World::State::shape(const Support& s) const {
-  // The height follows the load at rest only: a feedback would outrun the spring of the contact.
+// The height follows the load at rest only: a feedback would outrun the spring of the contact.
+double World::State::outer_radius(const Support& s) const {
   const double squash_m = s.wheel < 0 ? 0 : robot.wheels[s.wheel].compliance_mpn * rest_load_n[s.wheel];
-  const double radius_m = s.radius_m - squash_m + s.sink_m;
+  return s.radius_m - squash_m + s.sink_m;
+}
+
+RollingShape World::State::shape(const Support& s) const {
+  const double radius_m = outer_radius(s);
   if (s.joint < 0) return {body.position() + body.rotation() * (s.centre_m + shift(s)), Vector3d::Zero(), radius_m};
   const Joint at = body.current(s.joint);
   return {body.position() + body.rotation() * (rim_centre(s, at) + shift(s)),

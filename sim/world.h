@@ -29,6 +29,7 @@ struct PhysicsOptions {
   double fine_step_s = 0.001;  ///< longest time step while a wheel is on or near a cable
   double gravity_mps2 = 9.81;
   Softness softness;
+  bool general_steps = false;  ///< take the general step always: the same to round-off, slower. For tests.
 };
 
 /// What the world counted, to be reported and explained.

@@ -1,19 +1,22 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "sim/contact_solver.h"
 #include "sim/multibody.h"
+#include "sim/sticking.h"
 #include "sim/world.h"
 
 namespace umbsim {
 
 /// A wheel, ball or caster wheel that may touch the floor.
 struct Support {
-  int joint = -1;       // -1: a ball fixed to the base
-  Eigen::Vector3d centre_m;    // base frame, of a fixed ball
+  int joint = -1;            // -1: a ball fixed to the base
+  Eigen::Vector3d centre_m;  // base frame, of a fixed ball
   double radius_m = 0;
   bool disc = false;
   int wheel = -1;             // drive wheels: 0 left, 1 right
@@ -31,15 +34,66 @@ struct Support {
   int stop = 0;       // at which it stands: 1 the upper, -1 the lower, 0 none
 };
 
+/// What acts on the base from outside in a step: angular about its centre of mass, then linear, base frame.
+using Impulse = Eigen::Matrix<double, 6, 1>;
+
 /// How a rolling tyre slips before it slides.
 struct TyreSlip {
-  double along = 0;   ///< m/s per N
+  double along = 0;  ///< m/s per N
   double across = 0;
   Eigen::Vector3d surface_mps = Eigen::Vector3d::Zero();  ///< speed of the carpet under the wheel, world frame
 };
 
+/// What a support does to the floor or a cable where it touches it, base frame. Directions: normal, along the rolling
+/// direction, across it; the last two count where there is friction. Speed along a direction plus compliance times
+/// impulse is minus the offset, until the contact opens or slides.
+struct Contact {
+  int support = 0;
+  double friction = 0;
+  MultiBody::Lever lever;
+  Eigen::Vector3d direction[3];
+  double compliance[3];  // velocity per impulse
+  double offset[3];
+};
+
+/// How the friction of a contact of finite width, or of a bearing, resists turning.
+struct TurningPatch {
+  bool turns = false;
+  double limit = 0;  // of the impulse
+  double compliance = 0;
+};
+
+/// Which of its laws' branches each contact and each bounded row of a step is on, in their order.
+struct Grip {
+  int contacts = 0;
+  bool open[8]{};
+  int patch[8]{};   // -1, 1: at its limit
+  int swivel[4]{};  // the same of each leg
+
+  bool all_hold() const {
+    const auto holds = [](int side) { return side == 0; };
+    return std::none_of(open, open + 8, [](bool o) { return o; }) && std::all_of(patch, patch + 8, holds) &&
+           std::all_of(swivel, swivel + 4, holds);
+  }
+};
+
+/// A rolling step in the making.
+struct Rolling {
+  HeldBody held;
+  Sticking sticking[8];
+  TurningPatch patch[8];
+  TurningPatch swivel[4];  // of the legs' bearings
+  Eigen::Vector3d force[8];
+  double bounded[12];  // impulses of patches and bearings
+  int bounded_rows = 0;
+};
+
+/// What the laws say of a solution: they hold, they are on other branches, or this step cannot tell.
+enum class Laws { hold, change, broken };
+
 /// Everything that a world holds. world.cpp: the interface; step.cpp: one time step; contact_rows.cpp: what touches;
-/// placing.cpp: how the robot is set down; springs.cpp: what carries it; strain.cpp: how its wheels were loaded.
+/// rolling.cpp: the step of most moments; placing.cpp: how the robot is set down; springs.cpp: what carries it;
+/// strain.cpp: how its wheels were loaded.
 struct World::State {
   RobotModel robot;
   Drivetrain drivetrain;
@@ -54,17 +108,17 @@ struct World::State {
   std::array<double, 2> command_radps{};
   std::array<double, 2> last_command_radps{};
   std::array<double, 2> zero_angle_rad{};
-  std::array<double, 2> set_point_radps{};   // behind the motors' lag
-  std::array<double, 2> shaft_rad{};         // motor side of the backlash
+  std::array<double, 2> set_point_radps{};    // behind the motors' lag
+  std::array<double, 2> shaft_rad{};          // motor side of the backlash
   std::array<double, 2> radius_factor{1, 1};  // of rolling, not of the shape
-  std::array<double, 2> rest_load_n{};       // that squashes a tyre at rest
-  bool sprung = false;                       // any support
+  std::array<double, 2> rest_load_n{};        // that squashes a tyre at rest
+  bool sprung = false;                        // any support
   struct {
     double least_n = 0, sum_ns = 0, unloaded_s = 0, since_s = 0, longest_s = 0, longest_from_s = 0, slid_s = 0;
   } strain[2];
-  double time_s = -1;                        // since place; pushes act from 0 on
+  double time_s = -1;  // since place; pushes act from 0 on
   double heading_rad = 0;
-  double stood_s = 0;                        // when the robot stood last, and how it was turned
+  double stood_s = 0;  // when the robot stood last, and how it was turned
   double stood_heading_rad = 0;
 
   // Rows of the current step: each is J_i, with response M^-1 J_i^T, and a compliance on the diagonal (velocity per
@@ -75,6 +129,10 @@ struct World::State {
   double compliance[kMaxRows]{};
   int rows = 0;
   int contact_support[8]{};
+  Contact contact[8];
+  int contacts = 0;
+  bool doubtful = false;  // whether a support is nearly near enough to be one of them
+  Grip grip;              // of the last rolling step
   RowVector impulses;
   SolveReport report;
 
@@ -82,28 +140,46 @@ struct World::State {
 
   RollingShape shape(const Support& s) const;
   Eigen::Vector3d rim_centre(const Support& s, const Joint& hinge, double ahead_rad = 0) const;
+  double outer_radius(const Support& s) const;
   double loaded_radius(const Support& s) const;
   double rolling_radius(const Support& s) const;
   double load(const Support& s) const;
   std::array<double, 2> follow_commands(double step_s, double part);
   void step(double step_s, const std::array<double, 2>& target_radps);
-  bool step_with_holding_motors(double step_s, const std::array<double, 2>& target_radps, DofVector& u);
+  bool step_rolling(double step_s, const std::array<double, 2>& target_radps, const Impulse& given, DofVector& u);
+  bool may_roll() const;
+  bool find_certain_contacts(double step_s, const std::array<double, 2>& target_radps, bool kicked);
+  bool start_rolling(double step_s, const std::array<double, 2>& target_radps, Rolling& now);
+  bool stick(const Contact& c, double step_s, const std::array<double, 2>& target_radps, Sticking& sticking) const;
+  bool stick_on_spring(const Contact& c, double step_s, Sticking& sticking) const;
+  bool solve_rolling(const Rolling& now, StickingProblem& motion) const;
+  Laws check_contacts(const StickingProblem& motion, double step_s, Rolling& now);
+  Laws check_bounded(const StickingProblem& motion, Rolling& now);
+  bool motors_hold(double step_s, const std::array<double, 2>& target_radps, const Eigen::Vector3d (&force)[8],
+                   const Eigen::Vector3d& turning) const;
+  void write_impulses(const Eigen::Vector3d (&force)[8], const double* bounded, int bounded_rows);
+  bool step_with_holding_motors(double step_s, const std::array<double, 2>& target_radps, bool found, DofVector& u);
   void step_with_motor_rows(double step_s, const std::array<double, 2>& target_radps, DofVector& u);
 
-  void add_contacts(double step_s, const DofVector& u);
-  void add_contact(int support, const NearestPoint& nearest, double step_s, const DofVector& u);
+  void find_contacts(double step_s, double watch_m, double doubt_m, const std::array<double, 2>& wheel_radps);
+  void add_contact(int support, const Joint& hinge, const Eigen::Vector3d& normal, double gap_m, double floor_friction,
+                   double step_s, const std::array<double, 2>& wheel_radps);
+  void add_contacts(double step_s, const DofVector& u, bool found = false);
+  void add_contact_rows(const Contact& c, const DofVector& u);
   TyreSlip tyre_slip(const Support& s) const;
   double creeping_load(const Support& s) const;
   double slip_of_turning_patch(const Support& s, double friction, const Eigen::Vector3d& normal) const;
+  TurningPatch turning_patch(const Contact& c, double step_s) const;
   void add_spin_friction(const DofVector& u, double step_s);
   void add_motor(int wheel, double target_radps, double step_s, const DofVector& u);
   void add_swivel_friction(double step_s, const DofVector& u);
   void add_backlash(int wheel, double target_radps, double step_s, const DofVector& u);
   void move_shafts(double step_s, const std::array<double, 2>& target_radps);
-  void add_pushes(double step_s, DofVector& u);
+  Impulse given_impulse(double step_s) const;
+  void add_pushes(double step_s, Impulse& given) const;
   Eigen::Vector3d gravity_mps2() const;
   void set_gravity() { body.set_gravity(gravity_mps2()); }
-  void add_pull(double step_s, DofVector& u);
+  void add_pull(double step_s, Impulse& given) const;
   template <int N>
   void assemble(const double* M_inverse, int dofs, int stride);
   void solve(double step_s);
@@ -111,6 +187,7 @@ struct World::State {
   void add_springs(double step_s);
   double spring_speed(const Support& s, double force_n, double step_s) const;
   bool change_stops(double step_s);
+  bool change_stops(double step_s, const double (&force_n)[8]);
   void move_springs(double step_s);
   Eigen::Vector3d shift(const Support& s) const { return {0, 0, s.up_m}; }
   void note_strain(double step_s);
@@ -130,5 +207,16 @@ struct World::State {
 /// Speed that a newton leaves between two surfaces in "rigid" contact. It makes the problem regular (the lateral
 /// friction of both wheels lies on one line); at 100 N it is 0.1 um/s.
 constexpr double kMobility = 1e-9;  // m/s per N
+
+/// Contacts this far ahead are watched, beyond what the step can travel.
+constexpr double kSpeculative_m = 0.001;
+
+/// Of the row of a swivel bearing with dry friction. Where it turns slower than kSwivelFade of its wheel's rolling rate
+/// friction fades in proportion: a shaken bearing creeps (docs/contact.md).
+inline double swivel_compliance(double friction_nm, double rolling_radps, double step_s) {
+  constexpr double kSwivelFade = 0.05;
+  constexpr double kSwivelMobility = 1e-9;  // rad/s per N m: makes the problem regular, as kMobility does
+  return (kSwivelMobility + kSwivelFade * std::abs(rolling_radps) / friction_nm) / step_s;
+}
 
 }  // namespace umbsim
