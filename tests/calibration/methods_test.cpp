@@ -264,6 +264,47 @@ TEST(OwnBias, WidensTheInterval) {
   EXPECT_GT(g.e_b.high, 1.01 - 1e-6);
 }
 
+// Turns in place beside circles tell scrub from the wheelbase; the ticks are those of a robot that scrubs.
+TEST(Scrub, IsFoundFromTurnsAndArcs) {
+  constexpr double kScrub = 0.002;
+  // A robot of exact kinematics whose counted ways are longer than what the floor sees.
+  const auto run = [&](const std::string& id, const testing::Moves& moves, unsigned seed) {
+    testing::Moves counted;
+    for (const auto& [left, right] : moves) {
+      const double sense = right > left ? 1 : right < left ? -1 : 0;
+      counted.emplace_back(left / (1 + (left < 0 ? -1 : 1) * sense * kScrub),
+                           right / (1 - (right < 0 ? -1 : 1) * sense * kScrub));
+    }
+    TestTracker tracker;
+    tracker.position_sd_m = 0.0003;
+    tracker.heading_sd_rad = 0.0005;
+    tracker.wheel_noise = 0.0001;
+    RecordedRun driven = tracked_run(id, "free", {}, nominal_odometry(), moves, tracker, seed);
+    const RecordedRun ticks = tracked_run(id, "free", {}, nominal_odometry(), counted, {}, seed);
+    EXPECT_EQ(driven.encoders.size(), ticks.encoders.size());
+    for (std::size_t k = 0; k < std::min(driven.encoders.size(), ticks.encoders.size()); ++k) {
+      driven.encoders[k].left_ticks = ticks.encoders[k].left_ticks;
+      driven.encoders[k].right_ticks = ticks.encoders[k].right_ticks;
+    }
+    return driven;
+  };
+  std::vector<RecordedRun> runs;
+  for (int i = 0; i < 4; ++i) {
+    testing::Moves moves;
+    for (const double sense : {1.0, -1.0}) {
+      const double turn_m = sense * M_PI * 0.34 / 2;
+      moves.insert(moves.end(), {{1, 1}, {-turn_m, turn_m}, {1, 1}, arc_move(0.8, sense * 2 * M_PI, 0.34)});
+    }
+    runs.push_back(run("free-" + std::to_string(i + 1), moves, unsigned(i + 1)));
+  }
+  const Fit f = fit("scrub", {testing::recording_of("free", 0, nominal_odometry(), runs)});
+  ASSERT_TRUE(f.scrub);
+  EXPECT_LT(f.scrub->low, kScrub);
+  EXPECT_GT(f.scrub->high, kScrub);
+  EXPECT_NEAR(f.scrub->value, kScrub, 0.0004);
+  EXPECT_NEAR(kEb.dot(f.factors), 0, 0.001);
+}
+
 TEST(PathIntegral, AnswersToParametersAsFiniteDifferencesSay) {
   const OdometryParameters o = nominal_odometry();
   const RecordedRun run = tracked_run("a", "free", robot(1, 1, 1), o,
