@@ -246,45 +246,44 @@ TEST(OwnBias, IsThatOfThePublishedFigures) {
     EXPECT_NEAR(std::exp(kEd.dot(answer)), c.said_e_d, 6e-6);
     EXPECT_NEAR(std::exp(answer[2]), c.said_e_b, 6e-6);
     const auto bias = own_bias(course, nominal_odometry(), answer);
-    ASSERT_TRUE(bias);
-    EXPECT_NEAR(kEd.dot(*bias), kEd.dot(answer - factors), 1e-9);
-    EXPECT_NEAR((*bias)[2], answer[2] - factors[2], 1e-5);
+    ASSERT_TRUE(bias);  // but for the mean radius, which the formulas keep in the arithmetic mean only
+    EXPECT_NEAR(kEd.dot(*bias), kEd.dot(answer - factors), 1e-7);
+    EXPECT_NEAR(kEb.dot(*bias), kEb.dot(answer - factors), 1e-7);
   }
 }
 
-// Half-metre squares: 1.0094 is said of 1.0100. The interval must hold the truth.
+// On half-metre squares 1.0098 is said of 1.0100. The interval must hold the truth, without any noise.
 TEST(OwnBias, WidensTheInterval) {
   const TrueRobot truth = TrueRobot::with(1, 1.01);
   const Fit f =
       fit_with(method("endpoint"), training_runs({tracked_squares(truth, nominal_odometry(), 3, {}, 0.5)}, {"s"}),
                nominal_odometry());
   const FitFigures g = figures(f, nominal_odometry());
-  EXPECT_LT(g.e_b.value, 1.0096);
-  EXPECT_LT(g.e_b.low, 1.0096);
+  EXPECT_LT(g.e_b.value, 1.01 - 1e-4);
+  EXPECT_LE(g.e_b.low, g.e_b.value);
   EXPECT_GT(g.e_b.high, 1.01 - 1e-6);
 }
 
 // Turns in place beside circles tell scrub from the wheelbase; the ticks are those of a robot that scrubs.
 TEST(Scrub, IsFoundFromTurnsAndArcs) {
   constexpr double kScrub = 0.002;
-  // A robot of exact kinematics whose counted ways are longer than what the floor sees.
+  // A robot of exact kinematics; its counters see more of the wheel that falls behind, and less of the other.
   const auto run = [&](const std::string& id, const testing::Moves& moves, unsigned seed) {
-    testing::Moves counted;
-    for (const auto& [left, right] : moves) {
-      const double sense = right > left ? 1 : right < left ? -1 : 0;
-      counted.emplace_back(left / (1 + (left < 0 ? -1 : 1) * sense * kScrub),
-                           right / (1 - (right < 0 ? -1 : 1) * sense * kScrub));
-    }
     TestTracker tracker;
     tracker.position_sd_m = 0.0003;
     tracker.heading_sd_rad = 0.0005;
     tracker.wheel_noise = 0.0001;
     RecordedRun driven = tracked_run(id, "free", {}, nominal_odometry(), moves, tracker, seed);
-    const RecordedRun ticks = tracked_run(id, "free", {}, nominal_odometry(), counted, {}, seed);
-    EXPECT_EQ(driven.encoders.size(), ticks.encoders.size());
-    for (std::size_t k = 0; k < std::min(driven.encoders.size(), ticks.encoders.size()); ++k) {
-      driven.encoders[k].left_ticks = ticks.encoders[k].left_ticks;
-      driven.encoders[k].right_ticks = ticks.encoders[k].right_ticks;
+    double left = 0, right = 0;
+    const std::vector<EncoderSample> floor = driven.encoders;
+    for (std::size_t k = 1; k < floor.size(); ++k) {
+      const double l = double(floor[k].left_ticks - floor[k - 1].left_ticks);
+      const double r = double(floor[k].right_ticks - floor[k - 1].right_ticks);
+      const double sense = std::abs(r - l) < 1e-3 * std::abs(l + r) ? 0 : r > l ? 1 : -1;
+      left += l / (1 + (l < 0 ? -1 : 1) * sense * kScrub);
+      right += r / (1 - (r < 0 ? -1 : 1) * sense * kScrub);
+      driven.encoders[k].left_ticks = std::llround(left);
+      driven.encoders[k].right_ticks = std::llround(right);
     }
     return driven;
   };
