@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# docs/make-figures.sh: makes the README's table of measured values and its picture again. Runs every command that the
+# docs/make-figures.sh: makes the table of docs/figures.md and the README's picture again. Runs every command that the
 # table names. Needs python3 and chromium.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -33,10 +33,10 @@ for side in 0.75 1.7; do
   [ ! -d "$recording" ] || "$umbsim" calibrate "$recording" --out "$out/optiodom-$side" > /dev/null
 done
 
-python3 - "$out" README.md <<'PYTHON'
+python3 - "$out" docs/figures.md <<'PYTHON'
 import glob, json, math, os, re, sys
 
-out, readme = sys.argv[1:]
+out, page = sys.argv[1:]
 load = lambda name, file="summary.json": json.load(open(os.path.join(out, name, file)))
 mm = lambda metres: metres * 1000
 deg = math.degrees
@@ -122,12 +122,12 @@ best = min(times, key=lambda c: c["wall_s"])
 row(f"Time for ten runs, {best['simulated_s']:.0f} simulated seconds, {os.cpu_count()} cores, best of five",
     f"{best['wall_s']:.2f} s", "`./umbsim run --set calibration.method=none`")
 
-text = open(readme).read()
+text = open(page).read()
 table = "| what | measured | command |\n|---|---|---|\n" + "\n".join(rows) + "\n"
 begin, end = "<!-- figures: begin -->\n", "<!-- figures: end -->"
-assert begin in text and end in text, "README.md has lost its markers"
+assert begin in text and end in text, f"{page} has lost its markers"
 head, rest = text.split(begin, 1)
-open(readme, "w").write(head + begin + table + end + rest.split(end, 1)[1])
+open(page, "w").write(head + begin + table + end + rest.split(end, 1)[1])
 print(table)
 PYTHON
 

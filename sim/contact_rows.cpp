@@ -84,22 +84,23 @@ void World::State::add_contact(int support, const Joint& hinge, const Vector3d& 
   const Support& s = supports[support];
   Contact& c = contact[contacts++];
   c.support = support;
+  c.friction = s.friction_scale * floor_friction + s.own_friction;
+  soften_contact(c, gap_m, step_s);
+  c.direction[0] = normal;
+  if (!s.disc && c.friction <= 0) {  // a ball that does not drag
+    c.lever = body.lever(-1, s.centre_m - s.radius_m * normal + shift(s));
+    for (int i = 1; i < 3; ++i) c.direction[i].setZero(), c.compliance[i] = 0;
+    return;
+  }
   const Vector3d axis = s.joint >= 0 ? hinge.axis : Vector3d(Vector3d::UnitY());
   const Vector3d level = axis.cross(normal);
   const double leaning = axis.dot(normal), share = 1 / level.norm();
-  c.direction[0] = normal;
   c.direction[1] = share * level;
   c.direction[2] = normal.cross(c.direction[1]);
   const Vector3d towards = s.disc ? Vector3d(share * (leaning * axis - normal)) : Vector3d(-normal);
   const double half_step_rad = s.wheel >= 0 ? 0.5 * step_s * wheel_radps[s.wheel] : 0;
   const Vector3d rim = rim_centre(s, hinge, half_step_rad) + rolling_radius(s) * towards + shift(s);
   c.lever = body.lever(s.joint, rim, shift(s));
-  c.friction = s.friction_scale * floor_friction + s.own_friction;
-
-  const double spring = step_s * s.stiffness_npm + s.damping_nspm;
-  const bool soft = s.stiffness_npm > 0;
-  c.compliance[0] = soft ? 1 / (step_s * spring) : kMobility / step_s;
-  c.offset[0] = soft && gap_m < 0 ? gap_m * s.stiffness_npm / spring : gap_m / step_s;
   if (c.friction <= 0) return;
   const TyreSlip slip = tyre_slip(s);
   c.compliance[1] = (kMobility + std::max(slip.along, slip_of_turning_patch(s, c.friction, normal))) / step_s;
@@ -108,6 +109,14 @@ void World::State::add_contact(int support, const Joint& hinge, const Vector3d& 
   if (floor.drift_x == 0 && floor.drift_y == 0) return;
   const Vector3d surface = body.rotation().transpose() * slip.surface_mps;
   for (int i = 1; i < 3; ++i) c.offset[i] = -surface.dot(c.direction[i]);
+}
+
+void World::State::soften_contact(Contact& c, double gap_m, double step_s) const {
+  const Support& s = supports[c.support];
+  const double spring = step_s * s.stiffness_npm + s.damping_nspm;
+  const bool soft = s.stiffness_npm > 0;
+  c.compliance[0] = soft ? 1 / (step_s * spring) : kMobility / step_s;
+  c.offset[0] = soft && gap_m < 0 ? gap_m * s.stiffness_npm / spring : gap_m / step_s;
 }
 
 void World::State::add_contact_rows(const Contact& c, const DofVector& u) {

@@ -55,16 +55,75 @@ std::vector<Ripple> random_ripples(double rms_m, double wavelength_m, std::uint6
   return ripples;
 }
 
+namespace {
+
+// The floor near one place: its ripples' sines and cosines once, and from there by the theorem of addition, with series
+// in the change of phase.
+class FloorNear {
+ public:
+  static constexpr std::size_t kMost = 32;
+  static constexpr double kFar = 0.03;  // of a phase; the series' next terms are below 1e-19
+
+  FloorNear(const Floor& floor, double x_m, double y_m) : floor_(floor) { move(x_m, y_m); }
+
+  FloorPoint at(double x_m, double y_m) {
+    const std::size_t count = floor_.ripples.size();
+    if (count > kMost) return floor_at(floor_, x_m, y_m);
+    const double dx = x_m - x_m_, dy = y_m - y_m_;
+    FloorPoint at;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Ripple& r = floor_.ripples[i];
+      const double d = r.kx_radpm * dx + r.ky_radpm * dy, d2 = d * d;
+      if (d2 > kFar * kFar) {
+        move(x_m, y_m);
+        return this->at(x_m, y_m);
+      }
+      const double sine = d * (1 - d2 / 6 * (1 - d2 / 20 * (1 - d2 / 42)));
+      const double versine = d2 / 2 * (1 - d2 / 12 * (1 - d2 / 30 * (1 - d2 / 56)));
+      const double height = cosine_[i] - versine * cosine_[i] - sine * sine_[i];
+      const double slope = -(sine_[i] - versine * sine_[i] + sine * cosine_[i]);
+      at.height_m += height;
+      at.slope_x += slope * r.kx_radpm;
+      at.slope_y += slope * r.ky_radpm;
+    }
+    return at;
+  }
+
+ private:
+  void move(double x_m, double y_m) {
+    x_m_ = x_m;
+    y_m_ = y_m;
+    if (floor_.ripples.size() > kMost) return;
+    for (std::size_t i = 0; i < floor_.ripples.size(); ++i) {
+      const Ripple& r = floor_.ripples[i];
+      const double phase = r.kx_radpm * x_m + r.ky_radpm * y_m + r.phase_rad;
+      sine_[i] = r.amplitude_m * std::sin(phase);
+      cosine_[i] = r.amplitude_m * std::cos(phase);
+    }
+  }
+
+  const Floor& floor_;
+  double x_m_ = 0, y_m_ = 0;
+  double sine_[kMost], cosine_[kMost];  // times the amplitude
+};
+
+}  // namespace
+
 NearestPoint nearest_on_floor(const Floor& floor, const RollingShape& shape) {
   const bool ball = shape.axis.isZero();
   Vector3d normal = Vector3d::UnitZ();
+  const auto rim_at = [&] {
+    const Vector3d towards = ball ? Vector3d(-normal) : in_plane(shape.axis, -normal);
+    return Vector3d(shape.centre_m + shape.radius_m * towards);
+  };
+  const Vector3d below = rim_at();
+  if (floor.ripples.empty()) return {{below.x(), below.y(), 0}, normal, below.z()};
+  FloorNear near(floor, below.x(), below.y());
   // The nearest point of disc or ball lies where its own normal opposes the floor's: a fixed-point iteration, which
   // contracts by (floor curvature x radius) each round.
   for (int i = 0;; ++i) {
-    const Vector3d towards = ball ? Vector3d(-normal) : in_plane(shape.axis, -normal);
-    const Vector3d rim = shape.centre_m + shape.radius_m * towards;
-    if (floor.ripples.empty()) return {{rim.x(), rim.y(), 0}, normal, rim.z()};
-    const FloorPoint at = floor_at(floor, rim.x(), rim.y());
+    const Vector3d rim = i == 0 ? below : rim_at();
+    const FloorPoint at = near.at(rim.x(), rim.y());
     const Vector3d next = Vector3d(-at.slope_x, -at.slope_y, 1).normalized();
     const bool converged = (next - normal).squaredNorm() < kConverged * kConverged;
     normal = next;

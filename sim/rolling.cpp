@@ -1,11 +1,12 @@
-// The step of a robot whose wheels and casters hold: nearly every one. Contacts that stick are stiff dampers between
-// robot and floor, so that the velocity follows from one small linear problem in the robot's own coordinates,
+// The step of a robot whose motors hold their set-points: nearly every one. Contacts that stick are stiff dampers
+// between robot and floor, so that the velocity follows from one small linear problem in the robot's own coordinates,
 //
 //   (M + J^T C^-1 J) (u - u before) = change of momentum without contacts - J^T C^-1 (J u before + offset),
 //
 // the same equations as A x + b = 0 of the general step (docs/physics.md), solved for u instead of the impulses
-// x = -C^-1 (J u + offset). Each contact enters as a tensor of three by three at its place. Then the laws are checked;
-// where one does not hold, the general step is taken.
+// x = -C^-1 (J u + offset). Each contact enters as a tensor of three by three at its place. Where one slides, opens or
+// closes, its impulse is another function of the velocity, and Newton's method finds where all of them balance.
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -15,10 +16,11 @@
 namespace umbsim {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int kRounds = 6;
+constexpr int kNewtonSteps = 15;
+constexpr double kBalanced = 1e-11;     // of the largest impulse
 constexpr double kConeSlack = 1e-12;    // as that of the contact solver
 constexpr double kFastestKick_mps = 1;  // that a push may give in a step, where it makes contacts doubtful
 
@@ -37,72 +39,6 @@ double bounded(int& side, double speed, double give, double limit, bool& changes
 
 }  // namespace
 
-// On a spring the contact gives way along z of the base, too: C + z z^T give / h, by the formula of Sherman and
-// Morrison.
-bool World::State::stick_on_spring(const Contact& c, double step_s, Sticking& sticking) const {
-  const Support& s = supports[c.support];
-  for (int i = 0; i < contacts; ++i) {
-    if (contact[i].support == c.support && &contact[i] != &c) return false;
-  }
-  sticking.offset.z() += spring_speed(s, 0, step_s);
-  if (s.stop != 0) return true;
-  const double give = 1 / (step_s * (step_s * s.spring.stiffness_npm + s.spring.damping_nspm));
-  const Vector3d upwards = sticking.give.col(2);
-  sticking.give -= (give / (1 + give * upwards.z())) * upwards * upwards.transpose();
-  return true;
-}
-
-bool World::State::stick(const Contact& c, double step_s, const std::array<double, 2>& target_radps,
-                         Sticking& sticking) const {
-  const Support& s = supports[c.support];
-  sticking.give = (1 / c.compliance[0] * c.direction[0]) * c.direction[0].transpose();
-  sticking.offset = c.offset[0] * c.direction[0];
-  for (int i = 1; i < 3 && c.friction > 0; ++i) {
-    sticking.give += (1 / c.compliance[i] * c.direction[i]) * c.direction[i].transpose();
-    sticking.offset += c.offset[i] * c.direction[i];
-  }
-  const DofVector& before = body.velocity();
-  sticking.known = before.segment<3>(3) + Vector3d(before.head<3>()).cross(c.lever.arm_m);
-  if (s.wheel >= 0) sticking.known += target_radps[s.wheel] * c.lever.turn_m[0];
-  sticking.leg = s.joint >= 2 ? (s.joint - 2) / 2 : -1;
-  for (int i = 0; i < c.lever.joints && s.wheel < 0; ++i) {
-    sticking.known += before[6 + c.lever.joint[i]] * c.lever.turn_m[i];
-  }
-  return !s.spring.sprung() || stick_on_spring(c, step_s, sticking);
-}
-
-// Rows that the forces of the contacts are written into, in the order of the general step.
-void World::State::write_impulses(const Vector3d (&force)[8], const double* bounded, int bounded_rows) {
-  rows = 0;
-  problem.contacts = problem.motors = 0;
-  impulses.resize(kMaxRows);
-  for (int i = 0; i < contacts; ++i) {
-    const Contact& c = contact[i];
-    problem.contact[problem.contacts] = {rows, c.friction};
-    contact_support[problem.contacts++] = c.support;
-    for (int k = 0; k < (c.friction > 0 ? 3 : 1); ++k) impulses[rows++] = c.direction[k].dot(force[i]);
-  }
-  for (int i = 0; i < bounded_rows; ++i) impulses[rows++] = bounded[i];
-  impulses.conservativeResize(rows);
-}
-
-// Whether both motors can give what holds the wheels at their speeds.
-bool World::State::motors_hold(double step_s, const std::array<double, 2>& target_radps, const Vector3d (&force)[8],
-                               const Vector3d& turning) const {
-  std::array<double, 2> impulse;
-  for (int i = 0; i < 2; ++i) {
-    const Wheel& w = robot.wheels[i];
-    impulse[i] = w.spin_inertia_kgm2 * (w.axis.dot(turning) + target_radps[i] - body.velocity()[6 + i]);
-  }
-  for (int i = 0; i < contacts; ++i) {
-    const int wheel = supports[contact[i].support].wheel;
-    if (wheel >= 0) impulse[wheel] -= contact[i].lever.turn_m[0].dot(force[i]);
-  }
-  const auto& motor = drivetrain.motor;
-  return std::abs(impulse[0]) <= motor[0].torque_limit_nm * step_s &&
-         std::abs(impulse[1]) <= motor[1].torque_limit_nm * step_s;
-}
-
 bool World::State::may_roll() const {
   if (options.general_steps) return false;
   return std::none_of(drivetrain.motor.begin(), drivetrain.motor.end(),
@@ -117,10 +53,31 @@ bool World::State::find_certain_contacts(double step_s, const std::array<double,
   return !doubtful;
 }
 
+// Speed of the contact's point before the step, with the wheels at their set speeds.
+void World::State::start_contact(const Contact& c, const std::array<double, 2>& target_radps, Sticking& now) const {
+  const Support& s = supports[c.support];
+  const DofVector& before = body.velocity();
+  now.known = before.segment<3>(3) + Vector3d(before.head<3>()).cross(c.lever.arm_m);
+  now.leg = s.joint >= 2 ? (s.joint - 2) / 2 : -1;
+  if (s.wheel >= 0) {
+    now.known += target_radps[s.wheel] * c.lever.turn_m[0];
+    return;
+  }
+  for (int i = 0; i < c.lever.joints; ++i) now.known += before[6 + c.lever.joint[i]] * c.lever.turn_m[i];
+}
+
+// One spring carries both: the floor's and a cable's.
+bool World::State::shares_spring(const Contact& c) const {
+  return supports[c.support].spring.sprung() && std::any_of(contact, contact + contacts, [&](const Contact& other) {
+           return other.support == c.support && &other != &c;
+         });
+}
+
 bool World::State::start_rolling(double step_s, const std::array<double, 2>& target_radps, Rolling& now) {
   now.held = body.held(step_s, target_radps);
   for (int i = 0; i < contacts; ++i) {
-    if (!stick(contact[i], step_s, target_radps, now.sticking[i])) return false;
+    if (sprung && shares_spring(contact[i])) return false;
+    start_contact(contact[i], target_radps, now.sticking[i]);
     now.patch[i] = turning_patch(contact[i], step_s);
   }
   int leg = 0;
@@ -132,12 +89,33 @@ bool World::State::start_rolling(double step_s, const std::array<double, 2>& tar
       now.swivel[leg].compliance = swivel_compliance(c.swivel_friction_nm, rolling_radps, step_s);
     ++leg;
   }
-  if (grip.contacts != contacts) grip = {contacts};
+  if (grip.contacts != contacts) grip = {}, grip.contacts = contacts;
   return true;
 }
 
-// The linear problem on the branches of the laws that `grip` says.
-bool World::State::solve_rolling(const Rolling& now, StickingProblem& motion) const {
+void World::State::set_springs(double step_s) {
+  for (int i = 0; i < contacts && sprung; ++i) {
+    const Support& s = supports[contact[i].support];
+    contact[i].spring_mps = spring_speed(s, 0, step_s);
+    contact[i].spring_give =
+        s.spring.sprung() && s.stop == 0 ? 1 / (step_s * (step_s * s.spring.stiffness_npm + s.spring.damping_nspm)) : 0;
+  }
+}
+
+// All contacts stick, but for those that were open in the step before.
+void World::State::let_stick(double step_s, Rolling& now) {
+  set_springs(step_s);
+  for (int i = 0; i < contacts; ++i) {
+    const Tangent t = sticking_tangent(contact[i]);
+    Sticking& s = now.sticking[i];
+    s.slides = false;
+    s.give = t.give;
+    s.push = t.push - t.give * s.known;
+  }
+}
+
+// With bounded rows on the side that `grip` says, and contacts as `now` has them.
+bool World::State::solve_rolling(Rolling& now, StickingProblem& motion) const {
   for (int i = 0; i < contacts; ++i) {
     if (!grip.open[i]) motion.add(contact[i].lever, now.sticking[i]);
     if (!now.patch[i].turns) continue;
@@ -155,31 +133,30 @@ bool World::State::solve_rolling(const Rolling& now, StickingProblem& motion) co
     else
       motion.turn_fork(leg, grip.swivel[leg] * now.swivel[leg].limit);
   }
-  return motion.solve();
+  if (!motion.solve()) return false;
+  for (int i = 0; i < contacts; ++i) now.change[i] = motion.change(contact[i].lever, now.sticking[i]);
+  return true;
 }
 
-// What the contacts do at this velocity, and whether the laws are on other branches than supposed.
-Laws World::State::check_contacts(const StickingProblem& motion, double step_s, Rolling& now) {
+// Whether contacts that were supposed to stick, or to be open, do.
+Laws World::State::check_sticking(Rolling& now) {
   Laws laws = Laws::hold;
-  double force_n[8]{};
   for (int i = 0; i < contacts; ++i) {
     const Contact& c = contact[i];
-    const Vector3d speed = motion.speed(c.lever, now.sticking[i]) + now.sticking[i].offset;
     now.force[i].setZero();
     if (grip.open[i]) {
-      grip.open[i] = c.direction[0].dot(speed) >= 0;
+      const Vector3d speed = now.sticking[i].known + now.change[i] + c.spring_mps * Vector3d::UnitZ();
+      grip.open[i] = c.direction[0].dot(speed) + c.offset[0] >= 0;
       if (!grip.open[i]) laws = Laws::change;
       continue;
     }
-    now.force[i] = -(now.sticking[i].give * speed);
+    now.force[i] = now.sticking[i].push - now.sticking[i].give * now.change[i];
     const double normal = c.direction[0].dot(now.force[i]);
     grip.open[i] = normal < 0;
     if (grip.open[i]) laws = Laws::change;
     const double cone = c.friction * normal * (1 + kConeSlack);
-    if (c.friction > 0 && now.force[i].squaredNorm() - normal * normal > cone * cone) return Laws::broken;
-    force_n[c.support] += now.force[i].z() / step_s;
+    if (c.friction > 0 && now.force[i].squaredNorm() - normal * normal > cone * cone) return Laws::slide;
   }
-  if (sprung && change_stops(step_s, force_n)) return Laws::broken;
   return laws;
 }
 
@@ -200,32 +177,172 @@ Laws World::State::check_bounded(const StickingProblem& motion, Rolling& now) {
   return changes ? Laws::change : Laws::hold;
 }
 
+bool World::State::stops_change(double step_s, const Rolling& now) {
+  if (!sprung) return false;
+  double force_n[8]{};
+  for (int i = 0; i < contacts; ++i) force_n[contact[i].support] += now.force[i].z() / step_s;
+  return change_stops(step_s, force_n);
+}
+
+// Impulse per speed of a locked body, at each contact.
+void World::State::set_likeness(Rolling& now) const {
+  const MassAbout& all = now.held.all;
+  const Vector3d centre = all.moment_kgm / all.mass_kg;
+  const Eigen::Matrix3d own = centre.squaredNorm() * Eigen::Matrix3d::Identity() - centre * centre.transpose();
+  const Eigen::Matrix3d turns = (all.inertia_kgm2 - all.mass_kg * own).inverse();
+  for (int i = 0; i < contacts; ++i) {
+    double speed[3];
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d turn = (contact[i].lever.arm_m - centre).cross(contact[i].direction[k]);
+      speed[k] =
+          1 / all.mass_kg + turn.dot(turns * turn) + (k == 0 || contact[i].friction > 0 ? contact[i].compliance[k] : 0);
+    }
+    now.like[i] = {1 / speed[0], 2 / (speed[1] + speed[2])};
+  }
+}
+
+void World::State::take_tangents(Rolling& now) {
+  for (int i = 0; i < contacts; ++i) {
+    const Tangent t = now.tangent[i] = tangent(contact[i], now.touch[i], now.like[i]);
+    Sticking& s = now.sticking[i];
+    s.give = t.give;
+    s.push = t.push - t.give * s.known;
+    s.slides = t.slides;
+    grip.open[i] = t.open;
+  }
+}
+
+// What the tangents say of the contacts. Returns how far this is from the laws, of the largest impulse.
+double World::State::touch_all(Rolling& now) {
+  double off = 0, largest = 1e-9;
+  for (int i = 0; i < contacts; ++i) {
+    const Contact& c = contact[i];
+    const Touch& t = now.touch[i] = touch(c, now.tangent[i], now.sticking[i].known + now.change[i]);
+    now.force[i] = t.impulse[0] * c.direction[0];
+    if (c.friction > 0) now.force[i] += t.impulse[1] * c.direction[1] + t.impulse[2] * c.direction[2];
+    largest = std::max(largest, t.impulse.cwiseAbs().maxCoeff());
+    off = std::max(off, unbalance(c, t, now.like[i]));
+  }
+  return off / largest;
+}
+
+// Newton's method, from what `now.touch` says.
+bool World::State::slide(double step_s, const Impulse& given, Rolling& now, StickingProblem& motion) {
+  for (int i = 0; i < kNewtonSteps; ++i) {
+    set_springs(step_s);
+    take_tangents(now);
+    motion.start(now.held, given, none_slides(now));
+    if (!solve_rolling(now, motion)) return false;
+    const bool balanced = touch_all(now) < kBalanced;
+    const bool stops = stops_change(step_s, now);
+    if (check_bounded(motion, now) == Laws::hold && balanced && !stops) return true;
+  }
+  return false;
+}
+
+// What the contacts did in the step before.
+void World::State::take_touch_before(Rolling& now) const {
+  for (int i = 0; i < contacts; ++i) {
+    Touch& t = now.touch[i];
+    t.slip = grip.slip[i];
+    t.impulse.setZero();
+    if (problem.contacts != contacts) continue;
+    const ContactRows& before = problem.contact[i];
+    for (int k = 0; k < (before.friction > 0 ? 3 : 1); ++k) t.impulse[k] = impulses[before.normal + k];
+  }
+}
+
+bool World::State::none_slides(const Rolling& now) const {
+  return std::none_of(now.sticking, now.sticking + contacts, [](const Sticking& s) { return s.slides; });
+}
+
+bool World::State::hold_or_slide(double step_s, const Impulse& given, Rolling& now, StickingProblem& motion) {
+  let_stick(step_s, now);
+  for (int round = 0; round < kRounds; ++round) {
+    motion.start(now.held, given, true);
+    if (!solve_rolling(now, motion)) return false;
+    const Laws laws = check_sticking(now);
+    if (laws == Laws::slide) break;
+    const Laws bounded_laws = check_bounded(motion, now);
+    if (stops_change(step_s, now))
+      let_stick(step_s, now);
+    else if (laws == Laws::hold && bounded_laws == Laws::hold)
+      return true;
+  }
+  // From where the contacts were in the step before, and from where they would be if all stuck.
+  set_likeness(now);
+  Touch stuck[8];
+  for (int i = 0; i < contacts; ++i) now.tangent[i] = sticking_tangent(contact[i]);
+  touch_all(now);
+  std::copy(now.touch, now.touch + contacts, stuck);
+  take_touch_before(now);
+  if (slide(step_s, given, now, motion)) return true;
+  std::copy(stuck, stuck + contacts, now.touch);
+  return slide(step_s, given, now, motion);
+}
+
+// Whether both motors can give what holds the wheels at their speeds.
+bool World::State::motors_hold(double step_s, const std::array<double, 2>& target_radps, const Rolling& now,
+                               const Vector3d& turning) const {
+  std::array<double, 2> impulse;
+  for (int i = 0; i < 2; ++i) {
+    const Wheel& w = robot.wheels[i];
+    impulse[i] = w.spin_inertia_kgm2 * (w.axis.dot(turning) + target_radps[i] - body.velocity()[6 + i]);
+  }
+  for (int i = 0; i < contacts; ++i) {
+    const int wheel = supports[contact[i].support].wheel;
+    if (wheel >= 0) impulse[wheel] -= contact[i].lever.turn_m[0].dot(now.force[i]);
+  }
+  const auto& motor = drivetrain.motor;
+  return std::abs(impulse[0]) <= motor[0].torque_limit_nm * step_s &&
+         std::abs(impulse[1]) <= motor[1].torque_limit_nm * step_s;
+}
+
+// Rows that the forces of the contacts are written into, in the order of the general step.
+void World::State::write_impulses(const Rolling& now) {
+  rows = 0;
+  problem.contacts = problem.motors = 0;
+  impulses.resize(kMaxRows);
+  for (int i = 0; i < contacts; ++i) {
+    const Contact& c = contact[i];
+    problem.contact[problem.contacts] = {rows, c.friction};
+    contact_support[problem.contacts++] = c.support;
+    for (int k = 0; k < (c.friction > 0 ? 3 : 1); ++k) impulses[rows++] = c.direction[k].dot(now.force[i]);
+  }
+  for (int i = 0; i < now.bounded_rows; ++i) impulses[rows++] = now.bounded[i];
+  impulses.conservativeResize(rows);
+}
+
 bool World::State::step_rolling(double step_s, const std::array<double, 2>& target_radps, const Impulse& given,
                                 DofVector& u) {
   Rolling now;
   if (!start_rolling(step_s, target_radps, now)) return false;
-  for (int round = 0; round < kRounds; ++round) {
-    StickingProblem motion(now.held, given);
-    if (!solve_rolling(now, motion)) return false;
-    const Laws contacts_now = check_contacts(motion, step_s, now);
-    if (contacts_now == Laws::broken) return false;
-    if (check_bounded(motion, now) == Laws::change || contacts_now == Laws::change) continue;
-    if (!motors_hold(step_s, target_radps, now.force, motion.turning())) return false;
-    u = body.velocity();
-    u.head<3>() += motion.turning();
-    u.segment<3>(3) += motion.moving();
-    u[6] = target_radps[0];
-    u[7] = target_radps[1];
-    for (int leg = 0; leg < now.held.legs; ++leg) {
-      u[6 + body.legs()[std::size_t(leg)].fork] += motion.fork_radps(leg);
-      u[6 + body.legs()[std::size_t(leg)].wheel] += motion.wheel_radps(leg);
-    }
-    write_impulses(now.force, now.bounded, now.bounded_rows);
-    report = {};
-    if (!grip.all_hold()) report.outcome = SolveOutcome::newton;
-    return true;
+  StickingProblem motion;
+  if (!hold_or_slide(step_s, given, now, motion) || !motors_hold(step_s, target_radps, now, motion.turning())) {
+    grip = {};
+    return false;
   }
-  return false;
+  u = body.velocity();
+  u.head<3>() += motion.turning();
+  u.segment<3>(3) += motion.moving();
+  u[6] = target_radps[0];
+  u[7] = target_radps[1];
+  bool slides = false;
+  for (int leg = 0; leg < now.held.legs; ++leg) {
+    u[6 + body.legs()[std::size_t(leg)].fork] += motion.fork_radps(leg);
+    u[6 + body.legs()[std::size_t(leg)].wheel] += motion.wheel_radps(leg);
+  }
+  for (int i = 0; i < contacts; ++i) {
+    slides = slides || now.sticking[i].slides;
+  }
+  if (slides || grip.slipped) {
+    for (int i = 0; i < contacts; ++i) grip.slip[i] = slides ? now.touch[i].slip : Vector3d(Vector3d::Zero());
+  }
+  grip.slipped = slides;
+  write_impulses(now);
+  report = {};
+  if (slides || !grip.all_hold()) report.outcome = SolveOutcome::newton;
+  return true;
 }
 
 }  // namespace umbsim

@@ -1,76 +1,103 @@
 #include "sim/sticking.h"
 
 namespace umbsim {
-namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-}  // namespace
-
-StickingProblem::StickingProblem(const HeldBody& held, const Eigen::Matrix<double, 6, 1>& given) : legs_(held.legs) {
-  const Matrix3d& I = held.all.inertia_kgm2;
+void StickingProblem::start(const HeldBody& held, const Eigen::Matrix<double, 6, 1>& given, bool symmetric) {
+  legs_ = held.legs;
+  symmetric_ = symmetric;
   const Vector3d& c = held.all.moment_kgm;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      K_[i][j] = I(i, j);
+    for (int j = 0; j < 3; ++j) {
+      K_[i][j] = held.all.inertia_kgm2(i, j);
       K_[i + 3][j + 3] = i == j ? held.all.mass_kg : 0;
     }
     right_[i] = held.turning_kgm2ps[i] + given[i];
     right_[i + 3] = held.pushing_kgmps[i] + given[i + 3];
   }
-  // Linear momentum of a turning base: w x c.
-  K_[3][0] = K_[4][1] = K_[5][2] = 0;
-  K_[3][1] = c.z(), K_[3][2] = -c.y();
-  K_[4][0] = -c.z(), K_[4][2] = c.x();
-  K_[5][0] = c.y(), K_[5][1] = -c.x();
+  // Linear momentum of a turning base, w x c; angular of a moving one, c x v.
+  K_[3][0] = K_[4][1] = K_[5][2] = K_[0][3] = K_[1][4] = K_[2][5] = 0;
+  K_[3][1] = K_[1][3] = c.z(), K_[3][2] = K_[2][3] = -c.y();
+  K_[4][0] = K_[0][4] = -c.z(), K_[4][2] = K_[2][4] = c.x();
+  K_[5][0] = K_[0][5] = c.y(), K_[5][1] = K_[1][5] = -c.x();
   for (int l = 0; l < legs_; ++l) {
     const HeldBody::Leg& from = held.leg[l];
     Leg& to = leg_[l];
     for (int i = 0; i < 3; ++i) {
-      to.coupling[0][i] = from.turning[i];
-      to.coupling[0][i + 3] = from.pushing[i];
-      to.coupling[1][i] = from.spinning[i];
-      to.coupling[1][i + 3] = 0;
+      to.on_base[0][i] = to.by_base[0][i] = from.turning[i];
+      to.on_base[0][i + 3] = to.by_base[0][i + 3] = from.pushing[i];
+      to.on_base[1][i] = to.by_base[1][i] = from.spinning[i];
+      to.on_base[1][i + 3] = to.by_base[1][i + 3] = 0;
     }
-    to.a = from.fork_kgm2, to.b = 0, to.d = from.wheel_kgm2;
+    to.a = from.fork_kgm2, to.b = to.c = 0, to.d = from.wheel_kgm2;
     to.right[0] = from.fork_kgm2ps, to.right[1] = from.wheel_kgm2ps;
   }
 }
 
-// J^T give J with J = [-[arm]x 1].
 void StickingProblem::add(const MultiBody::Lever& lever, const Sticking& contact) {
-  const Vector3d& r = lever.arm_m;
-  const Matrix3d& T = contact.give;
+  if (symmetric_)
+    add_symmetric(lever.arm_m, contact.give);
+  else
+    add_any(lever.arm_m, contact.give);
+  const Vector3d turned = lever.arm_m.cross(contact.push);
+  for (int i = 0; i < 3; ++i) right_[i] += turned[i], right_[i + 3] += contact.push[i];
+  if (contact.leg >= 0) add_to_leg(lever, contact);
+}
+
+// J^T T J with J = [-[r]x 1]: columns for a turn about each axis, w x r, and for a speed along it. G = [r]x T.
+void StickingProblem::add_symmetric(const Vector3d& r, const Matrix3d& T) {
+  double G[3][3];
   for (int i = 0; i < 3; ++i) {
-    const Vector3d turn = r.cross(T.col(i));  // a force along axis i is the answer to a speed along it
-    for (int j = 0; j < 3; ++j) K_[i + 3][j] += turn[j];
+    G[0][i] = r.y() * T(2, i) - r.z() * T(1, i);
+    G[1][i] = r.z() * T(0, i) - r.x() * T(2, i);
+    G[2][i] = r.x() * T(1, i) - r.y() * T(0, i);
+    for (int j = 0; j < 3; ++j) K_[i + 3][j] += G[j][i];
     for (int j = 0; j <= i; ++j) K_[i + 3][j + 3] += T(i, j);
   }
-  const Matrix3d G = (Matrix3d() << r.cross(T.col(0)), r.cross(T.col(1)), r.cross(T.col(2))).finished();
   for (int i = 0; i < 3; ++i) {
-    const Vector3d row = r.cross(Vector3d(G.row(i)));
-    for (int j = 0; j <= i; ++j) K_[i][j] += row[j];
+    K_[i][0] += r.y() * G[i][2] - r.z() * G[i][1];
+    if (i > 0) K_[i][1] += r.z() * G[i][0] - r.x() * G[i][2];
+    if (i > 1) K_[i][2] += r.x() * G[i][1] - r.y() * G[i][0];
   }
-  const Vector3d force = -(T * (contact.known + contact.offset)), moment = r.cross(force);
-  for (int i = 0; i < 3; ++i) right_[i] += moment[i], right_[i + 3] += force[i];
-  if (contact.leg < 0) return;
+}
+
+void StickingProblem::add_any(const Vector3d& r, const Matrix3d& T) {
+  Vector3d moment[3];
+  for (int i = 0; i < 3; ++i) {
+    moment[i] = r.cross(T.col(i));
+    for (int j = 0; j < 3; ++j) K_[j][i + 3] += moment[i][j], K_[j + 3][i + 3] += T(j, i);
+  }
+  for (int j = 0; j < 3; ++j) {
+    const Vector3d by_turn = r.cross(Vector3d(moment[0][j], moment[1][j], moment[2][j]));
+    const Vector3d pushed = r.cross(Vector3d(T.row(j)));
+    for (int i = 0; i < 3; ++i) K_[j][i] += by_turn[i], K_[j + 3][i] += pushed[i];
+  }
+}
+
+void StickingProblem::add_to_leg(const MultiBody::Lever& lever, const Sticking& contact) {
+  const Vector3d& r = lever.arm_m;
+  const Matrix3d& T = contact.give;
   Leg& leg = leg_[contact.leg];
-  const Vector3d &wheel = lever.turn_m[0], &fork = lever.turn_m[1];
-  const Vector3d by_wheel = T * wheel, by_fork = T * fork;
-  const Vector3d turn_wheel = r.cross(by_wheel), turn_fork = r.cross(by_fork);
-  for (int i = 0; i < 3; ++i) {
-    leg.coupling[0][i] += turn_fork[i], leg.coupling[0][i + 3] += by_fork[i];
-    leg.coupling[1][i] += turn_wheel[i], leg.coupling[1][i + 3] += by_wheel[i];
+  const Vector3d* joint[2] = {&lever.turn_m[1], &lever.turn_m[0]};  // the lever has the wheel first, then the fork
+  for (int k = 0; k < 2; ++k) {
+    const Vector3d push = T * *joint[k], pushed = T.transpose() * *joint[k];
+    const Vector3d turn = r.cross(push), turned = r.cross(pushed);
+    for (int i = 0; i < 3; ++i) {
+      leg.on_base[k][i] += turn[i], leg.on_base[k][i + 3] += push[i];
+      leg.by_base[k][i] += turned[i], leg.by_base[k][i + 3] += pushed[i];
+    }
+    (k == 0 ? leg.a : leg.b) += joint[0]->dot(push);
+    (k == 0 ? leg.c : leg.d) += joint[1]->dot(push);
+    leg.right[k] += joint[k]->dot(contact.push);
   }
-  leg.a += fork.dot(by_fork), leg.b += fork.dot(by_wheel), leg.d += wheel.dot(by_wheel);
-  leg.right[0] += fork.dot(force), leg.right[1] += wheel.dot(force);
 }
 
 void StickingProblem::hold_turning(const Vector3d& axis, double speed, double give) {
   turn(axis, -give * speed);
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j <= i; ++j) K_[i][j] += give * axis[i] * axis[j];
+    for (int j = 0; j < 3; ++j) K_[i][j] += give * axis[i] * axis[j];
   }
 }
 
@@ -79,35 +106,38 @@ void StickingProblem::turn(const Vector3d& axis, double impulse) {
 }
 
 bool StickingProblem::solve() {
-  if (!set_legs_aside() || !solve_base()) return false;
+  if (!set_legs_aside() || !(symmetric_ ? solve_symmetric() : solve_any())) return false;
   find_legs();
   return true;
 }
 
-// Each leg's rates are [a b; b d]^-1 (right - coupling^T base); put into the base's rows, these stand alone.
+// Each leg's rates are [a b; c d]^-1 (right - by_base base); put into the base's rows, these stand alone.
 bool StickingProblem::set_legs_aside() {
   for (int l = 0; l < legs_; ++l) {
     Leg& leg = leg_[l];
-    const double determinant = leg.a * leg.d - leg.b * leg.b;
+    const double determinant = leg.a * leg.d - leg.b * leg.c;
     if (!(determinant > 0)) return false;
-    const double a = leg.d / determinant, b = -leg.b / determinant, d = leg.a / determinant;
-    for (int i = 0; i < 6; ++i) {
-      leg.carried[0][i] = a * leg.coupling[0][i] + b * leg.coupling[1][i];
-      leg.carried[1][i] = b * leg.coupling[0][i] + d * leg.coupling[1][i];
-      right_[i] -= leg.carried[0][i] * leg.right[0] + leg.carried[1][i] * leg.right[1];
-      for (int j = 0; j <= i; ++j) {
-        K_[i][j] -= leg.carried[0][i] * leg.coupling[0][j] + leg.carried[1][i] * leg.coupling[1][j];
-      }
-    }
+    const double a = leg.d / determinant, b = -leg.b / determinant, c = -leg.c / determinant, d = leg.a / determinant;
     const double fork = leg.right[0], wheel = leg.right[1];
     leg.right[0] = a * fork + b * wheel;
-    leg.right[1] = b * fork + d * wheel;
+    leg.right[1] = c * fork + d * wheel;
+    for (int i = 0; i < 6; ++i) {
+      leg.carried[0][i] = a * leg.by_base[0][i] + b * leg.by_base[1][i];
+      leg.carried[1][i] = c * leg.by_base[0][i] + d * leg.by_base[1][i];
+    }
+    for (int i = 0; i < 6; ++i) {
+      right_[i] -= leg.on_base[0][i] * leg.right[0] + leg.on_base[1][i] * leg.right[1];
+      const int columns = symmetric_ ? i + 1 : 6;
+      for (int j = 0; j < columns; ++j) {
+        K_[i][j] -= leg.on_base[0][i] * leg.carried[0][j] + leg.on_base[1][i] * leg.carried[1][j];
+      }
+    }
   }
   return true;
 }
 
-// K = L D L^T.
-bool StickingProblem::solve_base() {
+// K = L D L^T, of the lower half.
+bool StickingProblem::solve_symmetric() {
   double inverse[6];
   for (int i = 0; i < 6; ++i) {
     double* Ki = K_[i];
@@ -131,6 +161,26 @@ bool StickingProblem::solve_base() {
   return true;
 }
 
+// K = L U. Its pivots are positive unless friction holds more than masses and contacts.
+bool StickingProblem::solve_any() {
+  double inverse[6];
+  for (int i = 0; i < 6; ++i) {
+    double* Ki = K_[i];
+    for (int k = 0; k < i; ++k) {
+      Ki[k] *= inverse[k];
+      for (int j = k + 1; j < 6; ++j) Ki[j] -= Ki[k] * K_[k][j];
+      right_[i] -= Ki[k] * right_[k];
+    }
+    if (!(Ki[i] > 0)) return false;
+    inverse[i] = 1 / Ki[i];
+  }
+  for (int i = 5; i >= 0; --i) {
+    for (int k = i + 1; k < 6; ++k) right_[i] -= K_[i][k] * right_[k];
+    right_[i] *= inverse[i];
+  }
+  return true;
+}
+
 void StickingProblem::find_legs() {
   for (int l = 0; l < legs_; ++l) {
     for (int i = 0; i < 6; ++i) {
@@ -140,10 +190,10 @@ void StickingProblem::find_legs() {
   }
 }
 
-Vector3d StickingProblem::speed(const MultiBody::Lever& lever, const Sticking& contact) const {
-  const Vector3d speed = contact.known + moving() + turning().cross(lever.arm_m);
-  if (contact.leg < 0) return speed;
-  return speed + wheel_radps(contact.leg) * lever.turn_m[0] + fork_radps(contact.leg) * lever.turn_m[1];
+Vector3d StickingProblem::change(const MultiBody::Lever& lever, const Sticking& contact) const {
+  const Vector3d change = moving() + turning().cross(lever.arm_m);
+  if (contact.leg < 0) return change;
+  return change + wheel_radps(contact.leg) * lever.turn_m[0] + fork_radps(contact.leg) * lever.turn_m[1];
 }
 
 }  // namespace umbsim

@@ -4,12 +4,13 @@
 
 namespace umbsim {
 
-/// A contact that holds: it pushes with -give (speed of its point + offset). Base frame.
+/// What a contact does as its point's speed changes in the step: it pushes with push - give (change). Base frame.
 struct Sticking {
-  Eigen::Matrix3d give;    ///< impulse per speed
-  Eigen::Vector3d offset;  ///< speed
-  Eigen::Vector3d known;   ///< speed of its point before the step, with the held wheels at their set speeds
-  int leg = -1;            ///< whose joints move it, too
+  Eigen::Matrix3d give;   ///< impulse per speed; symmetric unless the contact slides
+  Eigen::Vector3d push;   ///< impulse if nothing changed
+  Eigen::Vector3d known;  ///< speed of its point before the step, with the held wheels at their set speeds
+  int leg = -1;           ///< whose joints move it, too
+  bool slides = false;
 };
 
 /// The momentum balance of a step, (M + J^T C^-1 J) (change of u) = right: the base's six rows, and two for each leg,
@@ -18,7 +19,8 @@ struct Sticking {
 /// show in the other.
 class StickingProblem {
  public:
-  StickingProblem(const HeldBody& held, const Eigen::Matrix<double, 6, 1>& given);
+  /// `symmetric`: no contact slides.
+  void start(const HeldBody& held, const Eigen::Matrix<double, 6, 1>& given, bool symmetric);
 
   void add(const MultiBody::Lever& lever, const Sticking& contact);
   /// Holds the base, which turns with `speed` about `axis`, against that, or pushes it so.
@@ -38,24 +40,30 @@ class StickingProblem {
   Eigen::Vector3d moving() const { return {right_[3], right_[4], right_[5]}; }
   double fork_radps(int leg) const { return leg_[leg].right[0]; }
   double wheel_radps(int leg) const { return leg_[leg].right[1]; }
-  /// Of the contact's point, after the step.
-  Eigen::Vector3d speed(const MultiBody::Lever& lever, const Sticking& contact) const;
+  /// Of the contact's point.
+  Eigen::Vector3d change(const MultiBody::Lever& lever, const Sticking& contact) const;
 
  private:
   struct Leg {
-    double coupling[2][6];  // of fork and wheel to the base
-    double carried[2][6];   // times the inverse of [a b; b d]
-    double a, b, d;
+    double on_base[2][6];  // what rates of fork and wheel do to the base
+    double by_base[2][6];  // and the base to them; the same unless a contact slides
+    double carried[2][6];  // by_base, times the inverse of [a b; c d]
+    double a, b, c, d;
     double right[2];
   };
+  void add_symmetric(const Eigen::Vector3d& arm_m, const Eigen::Matrix3d& give);
+  void add_any(const Eigen::Vector3d& arm_m, const Eigen::Matrix3d& give);
+  void add_to_leg(const MultiBody::Lever& lever, const Sticking& contact);
   bool set_legs_aside();
-  bool solve_base();
+  bool solve_symmetric();
+  bool solve_any();
   void find_legs();
 
-  double K_[6][6];  // lower half; angular, then linear
+  double K_[6][6];  // angular, then linear; the lower half where it is symmetric
   double right_[6];
   Leg leg_[4];
   int legs_;
+  bool symmetric_;
 };
 
 }  // namespace umbsim

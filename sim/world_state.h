@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/contact.h"
 #include "sim/contact_solver.h"
 #include "sim/multibody.h"
 #include "sim/sticking.h"
@@ -44,18 +45,6 @@ struct TyreSlip {
   Eigen::Vector3d surface_mps = Eigen::Vector3d::Zero();  ///< speed of the carpet under the wheel, world frame
 };
 
-/// What a support does to the floor or a cable where it touches it, base frame. Directions: normal, along the rolling
-/// direction, across it; the last two count where there is friction. Speed along a direction plus compliance times
-/// impulse is minus the offset, until the contact opens or slides.
-struct Contact {
-  int support = 0;
-  double friction = 0;
-  MultiBody::Lever lever;
-  Eigen::Vector3d direction[3];
-  double compliance[3];  // velocity per impulse
-  double offset[3];
-};
-
 /// How the friction of a contact of finite width, or of a bearing, resists turning.
 struct TurningPatch {
   bool turns = false;
@@ -69,6 +58,14 @@ struct Grip {
   bool open[8]{};
   int patch[8]{};   // -1, 1: at its limit
   int swivel[4]{};  // the same of each leg
+  bool slipped = false;
+  std::array<Eigen::Vector3d, 8> slip = all_zero();
+
+  static std::array<Eigen::Vector3d, 8> all_zero() {
+    std::array<Eigen::Vector3d, 8> zero;
+    zero.fill(Eigen::Vector3d::Zero());
+    return zero;
+  }
 
   bool all_hold() const {
     const auto holds = [](int side) { return side == 0; };
@@ -82,14 +79,18 @@ struct Rolling {
   HeldBody held;
   Sticking sticking[8];
   TurningPatch patch[8];
-  TurningPatch swivel[4];  // of the legs' bearings
+  TurningPatch swivel[4];     // of the legs' bearings
+  Eigen::Vector3d change[8];  // of the speeds of the contacts' points
+  Tangent tangent[8];
+  Touch touch[8];
+  Likeness like[8];
   Eigen::Vector3d force[8];
   double bounded[12];  // impulses of patches and bearings
   int bounded_rows = 0;
 };
 
-/// What the laws say of a solution: they hold, they are on other branches, or this step cannot tell.
-enum class Laws { hold, change, broken };
+/// What the laws say of a solution: they hold, they are on other branches, or a contact slides that was to stick.
+enum class Laws { hold, change, slide };
 
 /// Everything that a world holds. world.cpp: the interface; step.cpp: one time step; contact_rows.cpp: what touches;
 /// rolling.cpp: the step of most moments; placing.cpp: how the robot is set down; springs.cpp: what carries it;
@@ -150,20 +151,31 @@ struct World::State {
   bool may_roll() const;
   bool find_certain_contacts(double step_s, const std::array<double, 2>& target_radps, bool kicked);
   bool start_rolling(double step_s, const std::array<double, 2>& target_radps, Rolling& now);
-  bool stick(const Contact& c, double step_s, const std::array<double, 2>& target_radps, Sticking& sticking) const;
-  bool stick_on_spring(const Contact& c, double step_s, Sticking& sticking) const;
-  bool solve_rolling(const Rolling& now, StickingProblem& motion) const;
-  Laws check_contacts(const StickingProblem& motion, double step_s, Rolling& now);
+  void start_contact(const Contact& c, const std::array<double, 2>& target_radps, Sticking& now) const;
+  bool shares_spring(const Contact& c) const;
+  void set_springs(double step_s);
+  void let_stick(double step_s, Rolling& now);
+  bool hold_or_slide(double step_s, const Impulse& given, Rolling& now, StickingProblem& motion);
+  bool slide(double step_s, const Impulse& given, Rolling& now, StickingProblem& motion);
+  void set_likeness(Rolling& now) const;
+  void take_tangents(Rolling& now);
+  bool none_slides(const Rolling& now) const;
+  void take_touch_before(Rolling& now) const;
+  double touch_all(Rolling& now);
+  bool solve_rolling(Rolling& now, StickingProblem& motion) const;
+  Laws check_sticking(Rolling& now);
   Laws check_bounded(const StickingProblem& motion, Rolling& now);
-  bool motors_hold(double step_s, const std::array<double, 2>& target_radps, const Eigen::Vector3d (&force)[8],
+  bool stops_change(double step_s, const Rolling& now);
+  bool motors_hold(double step_s, const std::array<double, 2>& target_radps, const Rolling& now,
                    const Eigen::Vector3d& turning) const;
-  void write_impulses(const Eigen::Vector3d (&force)[8], const double* bounded, int bounded_rows);
+  void write_impulses(const Rolling& now);
   bool step_with_holding_motors(double step_s, const std::array<double, 2>& target_radps, bool found, DofVector& u);
   void step_with_motor_rows(double step_s, const std::array<double, 2>& target_radps, DofVector& u);
 
   void find_contacts(double step_s, double watch_m, double doubt_m, const std::array<double, 2>& wheel_radps);
   void add_contact(int support, const Joint& hinge, const Eigen::Vector3d& normal, double gap_m, double floor_friction,
                    double step_s, const std::array<double, 2>& wheel_radps);
+  void soften_contact(Contact& c, double gap_m, double step_s) const;
   void add_contacts(double step_s, const DofVector& u, bool found = false);
   void add_contact_rows(const Contact& c, const DofVector& u);
   TyreSlip tyre_slip(const Support& s) const;

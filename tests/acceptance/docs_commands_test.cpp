@@ -1,4 +1,6 @@
 // Every command in README.md and docs/ that starts the program is run as printed, in the reader's order.
+#include <algorithm>
+
 #include "tests/acceptance/markdown.h"
 #include "tests/acceptance/program.h"
 
@@ -31,7 +33,18 @@ void lay_out(const Desk& desk) {
   if (fs::is_directory(UMBSIM_SHARED_DIR)) fs::create_symlink(UMBSIM_SHARED_DIR, desk.home.parent_path() / "shared");
 }
 
-class Document : public testing::TestWithParam<const char*> {};
+/// README.md and every page of docs/, below the project.
+std::vector<std::string> pages() {
+  std::vector<std::string> all;
+  for (const auto& entry : fs::directory_iterator(fs::path(UMBSIM_SOURCE_DIR) / "docs")) {
+    if (entry.path().extension() == ".md") all.push_back("docs/" + entry.path().filename().string());
+  }
+  std::sort(all.begin(), all.end());
+  all.insert(all.begin(), "README.md");
+  return all;
+}
+
+class Document : public testing::TestWithParam<std::string> {};
 
 TEST_P(Document, CommandsWorkAsPrinted) {
   const std::vector<std::string> commands = commands_of(std::string(UMBSIM_SOURCE_DIR) + "/" + GetParam());
@@ -49,27 +62,18 @@ TEST_P(Document, CommandsWorkAsPrinted) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Document,
-                         testing::Values("README.md", "docs/life-of-a-run.md", "docs/scenario.md", "docs/outputs.md",
-                                         "docs/recording-format.md", "docs/conventions.md", "docs/architecture.md",
-                                         "docs/physics.md", "docs/sweep.md", "docs/sweep-database.md", "docs/ci.md",
-                                         "docs/cluster.md", "docs/calibration.md", "docs/your-robot.md"),
-                         [](const auto& param_info) {
-                           std::string name = fs::path(param_info.param).stem().string();
-                           for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Every, Document, testing::ValuesIn(pages()), [](const auto& param_info) {
+  std::string name = param_info.param == "README.md" ? "README" : "docs_" + fs::path(param_info.param).stem().string();
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return name;
+});
 
-TEST(Readme, ShowsCommands) {
-  EXPECT_GE(commands_of(std::string(UMBSIM_SOURCE_DIR) + "/README.md").size(), 5u);
-}
+TEST(Readme, ShowsCommands) { EXPECT_GE(commands_of(std::string(UMBSIM_SOURCE_DIR) + "/README.md").size(), 5u); }
 
 // Links to files of the project lead somewhere.
 TEST(Documents, LinksLeadSomewhere) {
-  std::vector<fs::path> files{fs::path(UMBSIM_SOURCE_DIR) / "README.md", fs::path(UMBSIM_SOURCE_DIR) / "CHANGELOG.md"};
-  for (const auto& entry : fs::directory_iterator(fs::path(UMBSIM_SOURCE_DIR) / "docs")) {
-    if (entry.path().extension() == ".md") files.push_back(entry.path());
-  }
+  std::vector<fs::path> files{fs::path(UMBSIM_SOURCE_DIR) / "CHANGELOG.md"};
+  for (const std::string& page : pages()) files.push_back(fs::path(UMBSIM_SOURCE_DIR) / page);
   for (const fs::path& file : files) {
     const std::string text = text_of(file);
     for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
