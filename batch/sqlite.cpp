@@ -39,6 +39,10 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file.st
 }
 
 void Database::fail(const std::string& doing) const {
+  const int code = handle_ ? sqlite3_errcode(handle_.get()) & 0xff : SQLITE_NOMEM;
+  if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
+    throw InputError(fmt::format("{}: is damaged or cut off: SQLite says: {}", file_, sqlite3_errmsg(handle_.get())));
+  }
   throw RunError(fmt::format("{}: {}: {}", file_, doing, handle_ ? sqlite3_errmsg(handle_.get()) : "out of memory"));
 }
 

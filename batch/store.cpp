@@ -1,8 +1,8 @@
 #include "batch/store.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "batch/store_schema.h"
 #include "core/error.h"
@@ -62,6 +62,7 @@ Store Store::open_for(const std::filesystem::path& file, const StoreLayout& layo
   store.put_point_ = database.prepare("INSERT OR IGNORE INTO points VALUES (" + placeholders(6 + axes) + ")");
   store.put_figures_ = database.prepare("INSERT INTO figures VALUES (" + placeholders(1 + figures) + ")");
   store.put_run_ = database.prepare("INSERT INTO runs VALUES (?, ?, ?, ?, ?, ?, ?)");
+  store.put_warning_ = database.prepare("INSERT INTO warnings VALUES (?, ?, ?)");
   return store;
 }
 
@@ -93,8 +94,10 @@ void Store::read_layout() {
 
 void Store::check_made_for(const StoreLayout& wanted) const {
   const char* what = nullptr;
-  if (layout_.definition != wanted.definition) what = "another scenario, other axes or other changes";
-  else if (layout_.figures != wanted.figures) what = "another version of the program, with other figures";
+  if (layout_.definition != wanted.definition)
+    what = "another scenario, other axes or other changes";
+  else if (layout_.figures != wanted.figures)
+    what = "another version of the program, with other figures";
   if (!what) return;
   throw InputError(fmt::format("{}: holds a sweep with {}; use --force to begin anew, or --out for another folder",
                                database_->file(), what));
@@ -106,8 +109,8 @@ void Store::find_provenance(const Provenance& provenance) {
   std::string where;
   for (const std::string& name : names) where += (where.empty() ? "" : " AND ") + quoted_name(name) + " = ?";
   Transaction transaction(*database_);
-  Statement insert = database_->prepare(fmt::format("INSERT OR IGNORE INTO provenance ({}) VALUES ({})",
-                                                    column_list(names), placeholders(names.size())));
+  Statement insert = database_->prepare(
+      fmt::format("INSERT OR IGNORE INTO provenance ({}) VALUES ({})", column_list(names), placeholders(names.size())));
   Statement find = database_->prepare("SELECT provenance FROM provenance WHERE " + where);
   for (std::size_t i = 0; i < names.size(); ++i) {
     insert.bind(int(i), provenance[i].second);
@@ -133,8 +136,10 @@ std::vector<std::int64_t> Store::missing(const Shard& shard) {
   bool more = there.step();
   for (std::int64_t number = 0; number < layout_.points; ++number) {
     const bool found = more && there.integer(0) == number;
-    if (found) more = there.step();
-    else if (shard.has(number)) open.push_back(number);
+    if (found)
+      more = there.step();
+    else if (shard.has(number))
+      open.push_back(number);
   }
   return open;
 }
@@ -168,6 +173,18 @@ void Store::put_figures(const StoredPoint& point) {
     put_run_->bind(0, point.number).bind(1, r.id).bind(2, r.direction).bind(3, r.stage);
     put_run_->bind(4, r.x_m).bind(5, r.y_m).bind(6, r.theta_rad).run();
   }
+  for (std::size_t i = 0; i < point.warnings.size(); ++i) {
+    put_warning_->bind(0, point.number).bind(1, std::int64_t(i)).bind(2, point.warnings[i]).run();
+  }
+}
+
+std::vector<std::pair<std::int64_t, std::string>> Store::warnings() {
+  const std::lock_guard lock(*mutex_);
+  std::vector<std::pair<std::int64_t, std::string>> all;
+  if (column_names(*database_, "warnings").empty()) return all;
+  Statement rows = database_->prepare("SELECT point, warning FROM warnings ORDER BY point, number");
+  while (rows.step()) all.emplace_back(rows.integer(0), rows.text(1));
+  return all;
 }
 
 void Store::note_start(const StoreStart& start) {

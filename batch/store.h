@@ -42,6 +42,7 @@ struct StoredPoint {
   std::vector<Cell> axes;          ///< as in the layout
   std::vector<Cell> figures;       ///< as in the layout; nothing where the point has no such figure
   std::vector<StoredRun> runs;
+  std::vector<std::string> warnings;  ///< of a point that was driven: what its figures do not say
 };
 
 /// One start of the program on a store: history, not content.
@@ -72,6 +73,8 @@ class Store {
   std::vector<std::int64_t> missing(const Shard& shard);
   std::int64_t count(const char* status);
   void put(const StoredPoint& point);
+  /// Point and text, in the order of the points; nothing in a store of a version that kept none.
+  std::vector<std::pair<std::int64_t, std::string>> warnings();
   void note_start(const StoreStart& start);
   /// Forgets the points that could not be driven.
   void forget_failed();
@@ -100,7 +103,7 @@ class Store {
   std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
   StoreLayout layout_;
   std::int64_t provenance_ = 0;
-  std::optional<Statement> has_, put_point_, put_figures_, put_run_;
+  std::optional<Statement> has_, put_point_, put_figures_, put_run_, put_warning_;
 };
 
 }  // namespace umbsim

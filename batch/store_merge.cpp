@@ -1,6 +1,6 @@
-#include <algorithm>
-
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "batch/store_schema.h"
 #include "core/error.h"
@@ -62,6 +62,8 @@ void Store::take_over(const std::filesystem::path& file) {
   database_->run(
       "INSERT INTO main.figures SELECT * FROM other.figures WHERE point NOT IN (SELECT point FROM main.points)");
   database_->run("INSERT INTO main.runs SELECT * FROM other.runs WHERE point NOT IN (SELECT point FROM main.points)");
+  database_->run(
+      "INSERT INTO main.warnings SELECT * FROM other.warnings WHERE point NOT IN (SELECT point FROM main.points)");
   const std::string axes = layout_.axes.empty() ? "" : ", " + column_list(layout_.axes, "p.");
   database_->run(fmt::format("INSERT OR IGNORE INTO main.points SELECT {}, {}{} FROM other.points p",
                              column_list(before, "p."), provenance, axes));

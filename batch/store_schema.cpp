@@ -11,6 +11,8 @@ CREATE TABLE starts (at_utc TEXT, host TEXT, pid INTEGER, shard TEXT, PRIMARY KE
 CREATE TABLE runs (
   point INTEGER REFERENCES points, run TEXT, direction TEXT, stage TEXT, x_m REAL, y_m REAL, theta_rad REAL,
   PRIMARY KEY (point, stage, run)) WITHOUT ROWID;
+CREATE TABLE warnings (point INTEGER REFERENCES points, number INTEGER, warning TEXT, PRIMARY KEY (point, number))
+  WITHOUT ROWID;
 )";
 
 std::string provenance_table(const Provenance& provenance) {

@@ -15,6 +15,7 @@ void add_robot_command(CLI::App& app);
 void add_effects_command(CLI::App& app);
 void add_explain_command(CLI::App& app);
 void add_gap_command(CLI::App& app);
+void add_completion_command(CLI::App& app);
 void add_gap_trial_command(CLI::App& gap);  ///< below `gap`
 void add_gap_predict_command(CLI::App& group);  ///< below `gap`
 void add_gap_plan_command(CLI::App& group);     ///< below `gap`

@@ -93,6 +93,9 @@ void add_robot(CLI::App& c, exchange::ImportOptions& o) {
       ->check(kPositive)
       ->group(kGroup);
   c.add_option("--encoders", o.encoders, "Topic of the wheels, or how their columns' names begin")->group(kGroup);
+  c.add_option("--commands", o.commands,
+               "Topic of a bag with commanded speeds (Twist, TwistStamped); none: leave them out; default: cmd_vel")
+      ->group(kGroup);
   c.add_option("--left-joint", o.left_joint, "Joint of the left wheel")->group(kGroup);
   c.add_option("--right-joint", o.right_joint, "Joint of the right wheel")->group(kGroup);
 }

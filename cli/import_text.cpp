@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/printable.h"
 #include "core/wrapped_text.h"
 #include "gap/clock.h"
 
@@ -37,7 +38,7 @@ std::string run_row(const exchange::Piece& p, const RecordedRun& run, const Reco
 std::string import_text(const exchange::Imported& i) {
   const Recording& r = i.recording;
   std::string text = wrapped(fmt::format("{}: what was found", r.title));
-  for (const std::string& line : i.found) text += wrapped("  " + line, 4);
+  for (const std::string& line : i.found) text += wrapped("  " + printable(line), 4);
   text +=
       wrapped(fmt::format("  header: wheel radius {:g} m, wheelbase {:g} m, {:g} ticks per revolution, {:g} Hz",
                           r.robot.wheel_radius_m, r.robot.wheelbase_m, r.robot.ticks_per_revolution, r.encoder_rate_hz),

@@ -14,12 +14,14 @@
 #include "cli/exit.h"
 #include "cli/help.h"
 #include "core/error.h"
+#include "core/printable.h"
 #include "experiment/build_info.h"
 
 namespace {
 
 using umbsim::kBadInput;
 using umbsim::kRunFailed;
+using umbsim::printable;
 
 // Every subcommand, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
@@ -33,6 +35,7 @@ constexpr void (*kCommands[])(CLI::App&) = {
     umbsim::add_explain_command,
     umbsim::add_sweep_command,
     umbsim::add_gap_command,
+    umbsim::add_completion_command,
 };
 
 // Words are buffered: a full disk shows when the last of them are written.
@@ -64,16 +67,16 @@ int run(int argc, char** argv) {
     return 0;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    fmt::print(stderr, "umbsim: {}\n", umbsim::usage_error(app, words, e));
+    fmt::print(stderr, "umbsim: {}\n", printable(umbsim::usage_error(app, words, e)));
     return kBadInput;
   } catch (const umbsim::Exit& e) {
-    if (*e.what()) fmt::print(stderr, "umbsim: {}\n", e.what());
+    if (*e.what()) fmt::print(stderr, "umbsim: {}\n", printable(e.what()));
     return e.code;
   } catch (const umbsim::InputError& e) {
-    fmt::print(stderr, "umbsim: {}\n", e.what());
+    fmt::print(stderr, "umbsim: {}\n", printable(e.what()));
     return kBadInput;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "umbsim: the run failed: {}\n", e.what());
+    fmt::print(stderr, "umbsim: the run failed: {}\n", printable(e.what()));
     return kRunFailed;
   }
 }

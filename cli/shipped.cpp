@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/choices.h"
+#include "core/data_folder.h"
 #include "core/error.h"
 
 namespace umbsim {
@@ -25,7 +26,7 @@ constexpr Kind kKinds[] = {
 const Kind& about(ShippedKind kind) { return kKinds[int(kind)]; }
 
 ShippedFile shipped_file(const fs::path& file) {
-  const fs::path below = file.lexically_relative(UMBSIM_SCENARIOS_DIR);
+  const fs::path below = file.lexically_relative(data_folder("scenarios"));
   for (const ShippedKind kind : {ShippedKind::sweep, ShippedKind::trial}) {
     if (*below.begin() != about(kind).folder) continue;
     return {kind, below.lexically_relative(about(kind).folder).replace_extension(), file};
@@ -36,7 +37,7 @@ ShippedFile shipped_file(const fs::path& file) {
 std::vector<ShippedFile> find_shipped_files() {
   std::vector<ShippedFile> files;
   std::error_code error;  // none: nothing is shipped
-  for (const auto& entry : fs::recursive_directory_iterator(UMBSIM_SCENARIOS_DIR, error)) {
+  for (const auto& entry : fs::recursive_directory_iterator(data_folder("scenarios"), error)) {
     if (entry.path().extension() == ".yaml") files.push_back(shipped_file(entry.path()));
   }
   std::sort(files.begin(), files.end(), [](const ShippedFile& a, const ShippedFile& b) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <set>
 
 #include "batch/store_export.h"
 #include "cli/commands.h"
@@ -40,8 +41,7 @@ struct ExportArguments {
 };
 
 Sweep read(const SweepArguments& a) {
-  if (a.sweep.empty())
-    throw InputError("sweep: a sweep file is missing, as in `umbsim sweep friction`");
+  if (a.sweep.empty()) throw InputError("sweep: a sweep file is missing, as in `umbsim sweep friction`");
   return read_sweep(shipped_path(ShippedKind::sweep, a.sweep, {"merge", "export"}), a.settings, a.axes);
 }
 
@@ -64,6 +64,21 @@ void print_failed(const SweepResult& result) {
   if (result.failed.size() > kMost) fmt::print("  and {} more, see sweep.json\n", result.failed.size() - kMost);
 }
 
+// A warning of many points says the same with other numbers: the first points that have one tell what it is.
+void print_warned(const SweepResult& result) {
+  constexpr std::size_t kMost = 3;
+  if (result.warned.empty()) return;
+  std::set<std::int64_t> points;
+  for (const WarnedPoint& w : result.warned) points.insert(w.number);
+  fmt::print("{} points with warnings\n", points.size());
+  for (std::size_t i = 0; i < std::min(kMost, result.warned.size()); ++i) {
+    const WarnedPoint& w = result.warned[i];
+    fmt::print("{}", wrapped(fmt::format("  point {}, {}: {}", w.number, w.label, w.warning), 4));
+  }
+  if (result.warned.size() > kMost)
+    fmt::print("  and {} more warnings, see sweep.json\n", result.warned.size() - kMost);
+}
+
 // Table, files, checks; the exit code.
 void conclude(const Sweep& sweep, const SweepArguments& a, const fs::path& folder) {
   Store store = Store::open(store_file(folder, {}));
@@ -73,6 +88,7 @@ void conclude(const Sweep& sweep, const SweepArguments& a, const fs::path& folde
   fmt::print("{}", wrapped(fmt::format("{}: {} of {} points driven, {} failed", sweep.name, result.done, sweep.points,
                                        result.failed.size())));
   print_failed(result);
+  print_warned(result);
   fmt::print("{}Result in {}: open {}/report.html\n", checks_text(result.checks), folder.string(), folder.string());
   if (result.missing > 0) {
     throw Exit(kRunFailed,

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/printable.h"
 #include "core/wrapped_text.h"
 #include "experiment/cable_layer.h"
 #include "experiment/course/read_course.h"
@@ -197,7 +198,7 @@ std::string experiment_table(const ExperimentResult& r) {
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) fmt::print(stderr, "umbsim: warning: {}\n", warning);
+  for (const std::string& warning : warnings) fmt::print(stderr, "umbsim: warning: {}\n", printable(warning));
 }
 
 }  // namespace umbsim

@@ -1,9 +1,11 @@
+# shellcheck shell=bash
 # Sourced by ./umbsim, ./test and bench/: installs what is missing, configures, builds. Sets `root` and `build`.
 # Packages by use. Everything comes from Debian.
 build_packages="g++ cmake ninja-build pkg-config git libbullet-dev libeigen3-dev liburdfdom-dev libtinyxml2-dev \
 libyaml-cpp-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtbb-dev libboost-dev libsqlite3-dev libssl-dev \
 libceres-dev libfastcdr-dev libzstd-dev liblz4-dev librosbag-storage-dev"
-test_packages="libgtest-dev libgmock-dev chromium valgrind slurm-wlm munge sqlite3 libmujoco-dev"
+test_packages="libgtest-dev libgmock-dev chromium valgrind slurm-wlm munge sqlite3 shellcheck libmujoco-dev"
+# shellcheck disable=SC2034  # used by bench/
 bench_packages="libbenchmark-dev libmujoco-dev valgrind"
 
 root=$(cd "${BASH_SOURCE[0]%setup.sh}.." && pwd)
@@ -30,6 +32,7 @@ install_missing() {
   say "installing from Debian:$missing"
   local log
   log=$(mktemp)
+  # shellcheck disable=SC2086  # names of packages, split on purpose
   if ! { as_root apt-get update -q && as_root env DEBIAN_FRONTEND=noninteractive \
          apt-get install -y -q --no-install-recommends $missing; } > "$log" 2>&1 < /dev/null 9>&-; then
     tail -n 20 "$log" >&2
@@ -141,17 +144,20 @@ program_is_current() {
 build_program() {
   program_is_current && return  # another launcher has just built it
   rm -f "$stamp"
+  # shellcheck disable=SC2086  # names of packages, split on purpose
   install_missing $build_packages || return
   touch "$stamp.begin" || return
   local built_commit
   built_commit=$(commit)
   build_targets umbsim_program || return
+  # shellcheck disable=SC2015  # a stamp that cannot be written is none
   (echo "$root"; echo "$built_commit"; files_built) > "$stamp.new" && touch -r "$stamp.begin" "$stamp.new" &&
     mv "$stamp.new" "$stamp" || true
 }
 
 # Builds the program and every test. ninja is asked every time: a test that someone removed is built again.
 build_all() {
+  # shellcheck disable=SC2086  # names of packages, split on purpose
   install_missing $build_packages $test_packages || return
   # GoogleTest may have come after the program was configured.
   [ -f "$build/tests/CTestTestfile.cmake" ] || rm -f "$build/build.ninja"

@@ -12,8 +12,11 @@ class Progress {
   Progress(std::string what, int total);
   ~Progress();
   void step();
+  /// So many are done.
+  void reach(int done);
 
  private:
+  void show();
   void draw(double elapsed_s);
   std::string what_;
   int total_;

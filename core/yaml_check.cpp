@@ -31,6 +31,7 @@ class StrictEvents : public YAML::EventHandler {
     fail(mark, "aliases (*name) are not read; write the value out");
   }
   void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string& value) override {
+    count(mark);
     if (expects_key()) return add_key(mark, value);
     value_done();
   }
@@ -59,6 +60,11 @@ class StrictEvents : public YAML::EventHandler {
 
   bool expects_key() const { return !open_.empty() && open_.back().is_map && !open_.back().has_key; }
 
+  // yaml-cpp takes a kilobyte and some microseconds for each.
+  void count(const YAML::Mark& mark) {
+    if (++nodes_ > kMaxYamlNodes) fail(mark, fmt::format("more than {} keys and values in one file", kMaxYamlNodes));
+  }
+
   void add_key(const YAML::Mark& mark, const std::string& key) {
     Level& map = open_.back();
     map.key = key;
@@ -68,6 +74,7 @@ class StrictEvents : public YAML::EventHandler {
   }
 
   void open(const YAML::Mark& mark, bool is_map) {
+    count(mark);
     odd_key_ = expects_key();
     if (odd_key_) fail(mark, "a key must be text, not a map or a list");
     if (open_.size() >= std::size_t(kMaxYamlDepth)) {
@@ -103,28 +110,36 @@ class StrictEvents : public YAML::EventHandler {
   std::string file_;
   std::vector<Level> open_;
   int documents_ = 0;
+  int nodes_ = 0;
   bool odd_key_ = false;
 };
 
 /// Follows the parser's events and refuses nothing but what is nested too deeply to be read.
 class AnyEvents : public YAML::EventHandler {
  public:
+  explicit AnyEvents(const std::string& file) : file_(file) {}
+
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
   void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
   void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
-  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
-    open();
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    open(mark);
   }
   void OnSequenceEnd() override { --depth_; }
-  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override { open(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    open(mark);
+  }
   void OnMapEnd() override { --depth_; }
 
  private:
-  void open() {
-    if (++depth_ > kMaxYamlDepth) throw InputError("nested too deeply");
+  void open(const YAML::Mark& mark) {
+    if (++depth_ <= kMaxYamlDepth) return;
+    throw InputError(SourceMark{file_, mark.line + 1, mark.column + 1},
+                     fmt::format("maps and lists are nested deeper than {} levels", kMaxYamlDepth));
   }
+  std::string file_;
   int depth_ = 0;
 };
 
@@ -161,7 +176,7 @@ void check_yaml(const std::string& text, const std::string& file) {
   try {
     parse_all(text, file, events);
   } catch (const InputError&) {
-    AnyEvents any;
+    AnyEvents any(file);
     if (events.odd_key()) parse_all(text, file, any);
     throw;
   }

@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "experiment/result_json.h"
+#include "experiment/wheel_loads.h"
 
 namespace umbsim {
 namespace {
@@ -28,6 +29,7 @@ Figures flattened(const ExperimentResult& result) {
   summary["cost"].erase("wall_s");
   Figures figures;
   flatten(summary, "", figures);
+  figures.emplace_back("warnings", double(run_warnings(result).size()));
   return figures;
 }
 

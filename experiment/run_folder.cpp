@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/text_file.h"
 #include "experiment/result_json.h"
+#include "experiment/unfinished.h"
 #include "recording/run_writer.h"
 
 namespace umbsim {
@@ -76,27 +77,23 @@ void write_folder(const fs::path& given, bool force, const std::function<void(co
   const fs::path folder = without_slash(given);
   check_output_folder(folder, force);
   const fs::path absolute = fs::absolute(folder);
-  const fs::path beside = absolute.parent_path() / fmt::format(".{}.{}.part", absolute.filename().string(), getpid());
-  const fs::path old = absolute.parent_path() / fmt::format(".{}.{}.old", absolute.filename().string(), getpid());
+  tidy_up(absolute);
+  const fs::path part = beside(absolute, ".part");
   const std::vector<fs::path> made = missing_above(absolute);
   const auto leave_nothing = [&] {
     std::error_code ignored;
-    fs::remove_all(beside, ignored);
+    fs::remove_all(part, ignored);
     for (const fs::path& folder_made : made) fs::remove(folder_made, ignored);  // only where it is empty
   };
   std::error_code error;
   try {
-    fs::create_directories(beside, error);
+    fs::create_directories(part, error);
     if (error) fail(folder, error);
-    fill(beside);
+    fill(part);
     // Unasked only an empty folder is replaced, which rename does by itself, even if one was filled meanwhile.
-    if (force && fs::exists(absolute)) fs::rename(absolute, old);
-    fs::rename(beside, absolute, error);
-    if (error) {
-      if (fs::exists(old)) fs::rename(old, absolute);
-      fail(folder, error);
-    }
-    fs::remove_all(old, error);
+    if (force && fs::exists(absolute)) replace_folder(part, absolute, error);
+    else fs::rename(part, absolute, error);
+    if (error) fail(folder, error);
   } catch (const fs::filesystem_error& e) {
     leave_nothing();
     fail(folder, e.code());

@@ -15,6 +15,7 @@
 #include "experiment/build_info.h"
 #include "experiment/figures.h"
 #include "experiment/run.h"
+#include "experiment/wheel_loads.h"
 
 namespace umbsim {
 namespace {
@@ -57,6 +58,7 @@ StoredPoint drive_point(const Sweep& sweep, std::int64_t number) {
   try {
     const ExperimentResult result = run_experiment(scenario, 0, false, {Rows::To::nowhere, {}});
     point.figures = figures_of(result);
+    point.warnings = run_warnings(result);
     add_runs(point, result, "before");
     if (!result.passes.empty()) add_runs(point, result.passes.back(), "after");
   } catch (const RunError& e) {

@@ -109,9 +109,9 @@ OdometryChoice read_odometry(const YamlValue& value) {
   YamlMap map(value);
   OdometryChoice o;
   const Bounds positive = Bounds::positive();
-  if (map.has("left_radius_m")) o.left_radius_m = map.number("left_radius_m", positive);
-  if (map.has("right_radius_m")) o.right_radius_m = map.number("right_radius_m", positive);
-  if (map.has("wheelbase_m")) o.wheelbase_m = map.number("wheelbase_m", positive);
+  if (const auto v = map.find("left_radius_m")) o.left_radius_m = v->number(positive);
+  if (const auto v = map.find("right_radius_m")) o.right_radius_m = v->number(positive);
+  if (const auto v = map.find("wheelbase_m")) o.wheelbase_m = v->number(positive);
   o.scrub = map.number("scrub", 0, Bounds::between(0, 0.1));
   map.finish();
   return o;

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/data_folder.h"
 #include "core/text_file.h"
 #include "experiment/robots.h"
 #include "experiment/scenario.h"
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 std::string robots_directory() {
   const char* chosen = std::getenv("UMBSIM_ROBOTS");
-  return chosen ? chosen : UMBSIM_ROBOTS_DIR;
+  return chosen ? chosen : data_folder("robots").string();
 }
 
 std::string scenario_urdf(const Scenario& s) {

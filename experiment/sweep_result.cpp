@@ -48,6 +48,9 @@ SweepResult measure_sweep(const Sweep& sweep, Store& store) {
   for (const FigureTable::Row& row : table.rows) {
     if (!row.error.empty()) result.failed.push_back({row.number, row.label, row.error});
   }
+  for (const auto& [number, warning] : store.warnings()) {
+    result.warned.push_back({number, label(sweep, sweep_point(sweep, number)), warning});
+  }
   result.done = std::int64_t(table.rows.size() - result.failed.size());
   result.missing = sweep.points - std::int64_t(table.rows.size());
   result.checks = check(sweep.expect, table);
@@ -57,14 +60,23 @@ SweepResult measure_sweep(const Sweep& sweep, Store& store) {
 }
 
 Json sweep_json(const Sweep& sweep, const SweepResult& result) {
-  Json failed = Json::array(), checks = Json::array();
+  Json failed = Json::array(), warned = Json::array(), checks = Json::array();
   for (const FailedPoint& f : result.failed) {
     failed.push_back({{"point", f.number}, {"where", f.label}, {"error", f.error}});
   }
+  for (const WarnedPoint& w : result.warned) {
+    warned.push_back({{"point", w.number}, {"where", w.label}, {"warning", w.warning}});
+  }
   for (const Check& c : result.checks) checks.push_back(check_json(c));
-  return {{"format", "umbsim-sweep-result/1"}, {"sweep", sweep.name},        {"description", sweep.description},
-          {"points", sweep.points},            {"done", result.done},        {"missing", result.missing},
-          {"failed", std::move(failed)},       {"checks", std::move(checks)}};
+  return {{"format", "umbsim-sweep-result/1"},
+          {"sweep", sweep.name},
+          {"description", sweep.description},
+          {"points", sweep.points},
+          {"done", result.done},
+          {"missing", result.missing},
+          {"failed", std::move(failed)},
+          {"warned", std::move(warned)},
+          {"checks", std::move(checks)}};
 }
 
 }  // namespace umbsim

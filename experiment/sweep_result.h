@@ -10,11 +10,19 @@
 
 namespace umbsim {
 
+/// A warning of a point that was driven.
+struct WarnedPoint {
+  std::int64_t number = 0;
+  std::string label;
+  std::string warning;
+};
+
 /// What a store holds, measured against the sweep's expectations.
 struct SweepResult {
   std::int64_t done = 0;
   std::int64_t missing = 0;
   std::vector<FailedPoint> failed;
+  std::vector<WarnedPoint> warned;
   std::vector<Check> checks;
   /// Points may fail where the sweep says so.
   bool failures_are_expected = false;

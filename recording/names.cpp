@@ -43,7 +43,11 @@ std::string link_problem(const std::filesystem::path& directory, const std::stri
   const fs::path file = failed ? fs::path() : fs::weakly_canonical(directory / path, failed);
   if (failed) return "cannot be read: " + failed.message();
   const auto [end, in_file] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
-  if (end == folder.end() && in_file != file.end()) return "";
+  if (end == folder.end() && in_file != file.end()) {
+    const fs::file_status status = fs::status(file, failed);
+    const bool plain = !fs::exists(status) || fs::is_regular_file(status) || fs::is_directory(status);
+    return plain ? "" : "is a pipe or a device, not a file";
+  }
   return "is a link that leaves the recording's folder: put the file itself there";
 }
 

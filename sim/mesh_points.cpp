@@ -47,6 +47,11 @@ std::string find_in_package(const fs::path& urdf, const fs::path& inside) {
   for (const auto& [variable, below] : {std::pair{"ROS_PACKAGE_PATH", ""}, std::pair{"AMENT_PREFIX_PATH", "share"}}) {
     for (const fs::path& folder : split_path(variable, below)) choices.push_back(folder / inside);
   }
+  // A package whose folder has another name, as that of a clone.
+  for (fs::path above = urdf.parent_path();; above = above.parent_path()) {
+    choices.push_back(above / rest);
+    if (above == above.parent_path()) break;
+  }
   return first_file(choices);
 }
 

@@ -14,6 +14,8 @@ namespace {
 
 // A sensor of this share of the robot's mass may be given without an inertia of its own.
 constexpr double kPointMassShare = 0.05;
+// What turns about its own axis is taken as a disc, whose inertia its mass says.
+constexpr double kWheelMassShare = 0.2;
 // A part of unknown size is a ball of water.
 constexpr double kDensity_kgpm3 = 1000;
 // A revolute joint that turns this far turns for ever: a wheel twice round, a swivel once.
@@ -25,6 +27,9 @@ double mass_of_links(const urdf::ModelInterface& model) {
   for (const auto& [name, link] : model.links_) sum += link->inertial ? link->inertial->mass : 0;
   return sum;
 }
+
+// A robot's longest chain of joints is some thirty.
+constexpr int kDeepest = 1000;
 
 class BodyReader {
  public:
@@ -45,6 +50,8 @@ class BodyReader {
  private:
   // Adds a link, all that is fixed to it, and new bodies behind its moving joints. x_rl: link in root.
   void add_link(const urdf::Link& link, int body, const Eigen::Isometry3d& x_rl) {
+    if (++depth_ > kDeepest)
+      source_.fail_at_link(link.name, fmt::format("is more than {} joints from the root", kDeepest));
     if (!seen_.insert(link.name).second) source_.fail_at_link(link.name, "child of more than one joint");
     for (const auto& collision : link.collision_array) {
       if (!collision || !collision->geometry) continue;
@@ -70,6 +77,7 @@ class BodyReader {
       const int owner = joint->type == urdf::Joint::FIXED ? body : add_body(*joint, body, x_rj);
       add_link(*source_.model().getLink(joint->child_link_name), owner, x_rj);
     }
+    --depth_;
   }
 
   int add_body(const urdf::Joint& joint, int parent, const Eigen::Isometry3d& x_rj) {
@@ -77,6 +85,7 @@ class BodyReader {
     body.link = joint.child_link_name;
     body.joint = joint.name;
     body.continuous = joint.type == urdf::Joint::CONTINUOUS;
+    body.revolute = joint.type == urdf::Joint::REVOLUTE;
     body.prismatic = joint.type == urdf::Joint::PRISMATIC;
     body.parent = parent;
     body.origin_m = x_rj.translation();
@@ -93,8 +102,11 @@ class BodyReader {
       body.continuous = body.upper - body.lower >= (upright ? kSwivelTurns_rad : kWheelTurns_rad);
     }
     if (!(body.effort_limit_nm >= 0)) {
-      source_.fail_at_joint(joint.name,
-                            fmt::format("limit effort is {:g}; it must not be negative", body.effort_limit_nm));
+      if (body.continuous) {
+        source_.fail_at_joint(joint.name,
+                              fmt::format("limit effort is {:g}; it must not be negative", body.effort_limit_nm));
+      }
+      body.effort_limit_nm = 0;  // of an arm's joint, which is held
     }
     bodies_.push_back(body);
     return int(bodies_.size()) - 1;
@@ -119,7 +131,8 @@ class BodyReader {
   // A light part's own inertia is little beside what its mass has by its place.
   void complete(const urdf::Link& link, const std::string& fault, Body& carrier, Eigen::Matrix3d& inertia) const {
     const double mass_kg = link.inertial->mass;
-    if (mass_kg > kPointMassShare * total_kg_) source_.fail_at_link(link.name, fault);
+    const bool turns = link.parent_joint && link.parent_joint->type == urdf::Joint::CONTINUOUS;
+    if (mass_kg > (turns ? kWheelMassShare : kPointMassShare) * total_kg_) source_.fail_at_link(link.name, fault);
     carrier.flaws.push_back({link.name, fault, true});
     if (inertia.isZero(0) && link.parent_joint && link.parent_joint->type == urdf::Joint::FIXED) {
       source_.remark(Remark::Kind::ignored,
@@ -147,6 +160,7 @@ class BodyReader {
 
   const UrdfSource& source_;
   double total_kg_;
+  int depth_ = 0;
   std::vector<Body> bodies_;
   std::set<std::string> seen_;
 };
@@ -219,7 +233,9 @@ std::vector<Body> in_frame(std::vector<Body> bodies, const Eigen::Isometry3d& x_
     body.origin_m = x_ar * body.origin_m;
     body.axis = x_ar.linear() * body.axis;
     body.inertial = transformed(body.inertial, x_ar);
-    for (Shape& shape : body.shapes) shape.pose = x_ar * shape.pose;
+    for (auto* shapes : {&body.shapes, &body.visuals}) {
+      for (Shape& shape : *shapes) shape.pose = x_ar * shape.pose;
+    }
   }
   return bodies;
 }

@@ -43,14 +43,15 @@ struct Flaw {
 /// What moves as one: a link behind a moving joint together with everything fixed to it. The first body of a list
 /// holds the root link; parents come before children.
 struct Body {
-  std::string link;   ///< the one behind the joint
-  std::string joint;  ///< empty for the root
+  std::string link;         ///< the one behind the joint
+  std::string joint;        ///< empty for the root
   bool continuous = false;  ///< turns for ever, or as good as
+  bool revolute = false;    ///< by its type, even if it turns for ever
   bool prismatic = false;
   int parent = -1;
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();  ///< a point on the joint axis
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
-  double effort_limit_nm = 0;  ///< 0 if the URDF gives none
+  double effort_limit_nm = 0;   ///< 0 if the URDF gives none
   double lower = 0, upper = 0;  ///< of the joint's position
   Inertial inertial;
   std::vector<Shape> shapes;  ///< of collisions

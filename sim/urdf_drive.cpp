@@ -22,34 +22,41 @@ struct Candidates {
 };
 
 // Behind no other continuous joint: the wheels of a caster are not drive wheels.
-bool can_drive(const std::vector<Body>& bodies, int index) {
-  if (!bodies[index].continuous || !is_horizontal(bodies[index].axis)) return false;
+bool can_drive(const std::vector<Body>& bodies, int index, bool revolute = false) {
+  const bool turns = bodies[index].continuous || (revolute && is_limited_wheel(bodies[index]));
+  if (!turns || !is_horizontal(bodies[index].axis)) return false;
   for (int i = bodies[index].parent; i > 0; i = bodies[i].parent) {
     if (bodies[i].continuous) return false;
   }
   return true;
 }
 
-// Balls are often given a joint as if they were wheels. Beside two wheels they are casters.
-void drop_balls(const UrdfSource& source, const std::vector<Body>& bodies, std::vector<RollingWheel>& wheels) {
+// Balls are often given a joint as if they were wheels, and casters a wheel that rolls but does not swivel, without
+// friction in Gazebo. Beside two wheels they are casters.
+void drop_casters(const UrdfSource& source, const std::vector<Body>& bodies, std::vector<RollingWheel>& wheels) {
   const auto is_ball = [&](const RollingWheel& wheel) {
     const auto& shapes = bodies[wheel.body].shapes;
     return !shapes.empty() && shapes[0].kind == Shape::Kind::sphere;
   };
-  if (wheels.size() < 3 || wheels.size() - std::count_if(wheels.begin(), wheels.end(), is_ball) < 2) return;
-  for (const RollingWheel& wheel : wheels) {
-    if (!is_ball(wheel)) continue;
-    source.remark(Remark::Kind::understood, source.joint_text(bodies[wheel.body].joint) +
-                                                ": a ball beside two wheels is a caster, whatever its joint");
-  }
-  std::erase_if(wheels, is_ball);
+  const auto drop = [&](const auto& is_one, Remark::Kind kind, const char* why) {
+    if (wheels.size() < 3 || wheels.size() - std::size_t(std::count_if(wheels.begin(), wheels.end(), is_one)) < 2)
+      return;
+    for (const RollingWheel& wheel : wheels) {
+      if (is_one(wheel)) source.remark(kind, source.joint_text(bodies[wheel.body].joint) + why);
+    }
+    std::erase_if(wheels, is_one);
+  };
+  drop(is_ball, Remark::Kind::understood, ": a ball beside two wheels is a caster, whatever its joint");
+  drop([&](const RollingWheel& wheel) { return rolls_as_caster(source, bodies[wheel.body]); }, Remark::Kind::assumed,
+       ": a caster by its name or its friction in Gazebo, whose wheel does not swivel: taken as a ball");
 }
 
-Candidates find_candidates(const UrdfSource& source, const std::vector<Body>& bodies, const WheelSize& size) {
+Candidates find_candidates(const UrdfSource& source, const std::vector<Body>& bodies, const WheelSize& size,
+                           bool revolute = false) {
   Candidates found;
   double floor = std::numeric_limits<double>::infinity();
   for (int i = 1; i < int(bodies.size()); ++i) {
-    if (!can_drive(bodies, i)) continue;
+    if (!can_drive(bodies, i, revolute)) continue;
     WheelShape shape = wheel_shape(source, bodies, i, size);
     if (!shape.fault.empty()) {
       found.faults.emplace_back(i, shape.fault);
@@ -61,7 +68,7 @@ Candidates find_candidates(const UrdfSource& source, const std::vector<Body>& bo
   std::erase_if(found.on_floor, [&](const RollingWheel& wheel) {
     return wheel.lowest_m() > floor + kFloorTolerance_radii * wheel.radius_m;  // a brush, a conveyor roller
   });
-  drop_balls(source, bodies, found.on_floor);
+  drop_casters(source, bodies, found.on_floor);
   return found;
 }
 
@@ -97,6 +104,14 @@ std::vector<Pair> collinear_pairs(const std::vector<Body>& bodies, const std::ve
                                      const std::vector<RollingWheel>& on_floor, const Pair& drive) {
   std::vector<RollingWheel> others = on_floor;
   std::erase_if(others, [&](const auto& w) { return w.body == drive.first.body || w.body == drive.second.body; });
+  for (const RollingWheel& wheel : on_floor) {
+    const int steering = steered_by(bodies, wheel.body);
+    if (steering == 0) continue;
+    source.fail_at_joint(bodies[wheel.body].joint,
+                         fmt::format("a wheel that is steered, by {}: a car is no differential drive (a caster swivels "
+                                     "on a continuous joint)",
+                                     source.joint_text(bodies[steering].joint)));
+  }
   for (const RollingWheel& other : others) {
     for (const RollingWheel& wheel : {drive.first, drive.second}) {
       if (collinear_pairs(bodies, {wheel, other}).empty()) continue;
@@ -187,7 +202,9 @@ Drive with_sides(const UrdfSource& source, const std::vector<Body>& bodies, Pair
   const Eigen::Vector3d line = pair.first.centre_m - pair.second.centre_m;
   const std::string root = source.link_text(bodies[0].link);
   const bool across = std::abs(line.x()) > std::abs(line.y());
-  if (across && !named) {
+  const int by_name = across && !named ? left_by_name(source, bodies, pair) : 0;
+  if (by_name == 2) std::swap(pair.first, pair.second);
+  if (across && !named && by_name == 0) {
     source.fail(
         fmt::format("the axle of joints {} lies along x of the root {}, which should point forward: name the "
                     "left and right drive joints",
@@ -202,6 +219,17 @@ Drive with_sides(const UrdfSource& source, const std::vector<Body>& bodies, Pair
     std::swap(pair.first, pair.second);
   }
   return {{pair.first, pair.second}};
+}
+
+// Wheels are this large; else the file's lengths have another unit.
+void check_size(const UrdfSource& source, const Body& body, const RollingWheel& wheel) {
+  constexpr double kSmallest_m = 0.001, kLargest_m = 2;
+  if (wheel.radius_m >= kSmallest_m && wheel.radius_m <= kLargest_m) return;
+  source.fail_at_joint(
+      body.joint, fmt::format("wheel radius {:g} m{}; it must be in [{:g}, {:g}]. URDF is in metres: is "
+                              "a length, or the scale of a mesh, for millimetres?",
+                              wheel.radius_m, wheel.taken_from.empty() ? "" : " from " + wheel.taken_from, kSmallest_m,
+                              kLargest_m));
 }
 
 }  // namespace
@@ -220,12 +248,17 @@ Eigen::Isometry3d Drive::root_in_base() const {
 Drive find_drive(const UrdfSource& source, const std::vector<Body>& bodies, const DriveJoints& joints,
                  const WheelSize& size) {
   const bool named = !joints.left.empty() || !joints.right.empty();
-  const Candidates found = find_candidates(source, bodies, size);
+  Candidates found = find_candidates(source, bodies, size);
+  if (found.on_floor.size() < 2 && found.faults.empty()) {
+    const Candidates limited = find_candidates(source, bodies, size, true);
+    if (limited.on_floor.size() >= 2) found = limited;
+  }
   const Pair pair = named ? named_pair(source, bodies, joints, size) : automatic_pair(source, bodies, found);
   const auto in_pair = [&](const RollingWheel& w) { return w.body == pair.first.body || w.body == pair.second.body; };
   if (!std::all_of(found.on_floor.begin(), found.on_floor.end(), in_pair)) {
     refuse_more_wheels(source, bodies, found.on_floor, pair);
   }
+  for (const RollingWheel& wheel : {pair.first, pair.second}) check_size(source, bodies[wheel.body], wheel);
   const double larger = std::max(pair.first.radius_m, pair.second.radius_m);
   if (std::abs(pair.first.radius_m - pair.second.radius_m) > kRadiusRatio * larger) {
     source.fail_at_joint(bodies[pair.second.body].joint,

@@ -14,7 +14,7 @@
 namespace umbsim {
 namespace {
 
-// A wheel's mass sits on its axle. Up to this share of the radius the file's offset is ignored, beyond it is refused.
+// A wheel's mass sits on its axle. Up to this share of the radius nothing is said of the file's offset.
 constexpr double kUnbalanced_radii = 0.1;
 
 struct RollingMass {
@@ -27,9 +27,9 @@ RollingMass rolling_mass(const UrdfSource& source, const Body& body, const Inert
   const Eigen::Vector3d offset = inertial.com_m - body.origin_m;
   const double radial = (offset - offset.dot(body.axis) * body.axis).norm();
   if (radial > kUnbalanced_radii * radius_m) {
-    source.fail_at_link(body.link, fmt::format("centre of mass is {:.3g} m off the joint axis (at most {:g} of the "
-                                               "radius {:g} m)",
-                                               radial, kUnbalanced_radii, radius_m));
+    source.remark(Remark::Kind::assumed, fmt::format("{}: its centre of mass is {:.3g} m off the joint axis; taken as "
+                                                     "on it",
+                                                     source.link_text(body.link), radial));
   }
   const double spin = body.axis.dot(inertial.inertia_kgm2 * body.axis);
   return {inertial.mass_kg, spin, (inertial.inertia_kgm2.trace() - spin) / 2};
@@ -58,23 +58,35 @@ void check_base(const UrdfSource& source, const Body& root, const Inertial& base
   if (!fault.empty()) source.fail_at_link(root.link, "with all that is fixed to it: " + fault);
 }
 
-// A drive wheel without mass or with an impossible inertia is not completed: how it spins matters.
-void check_wheel(const UrdfSource& source, const Body& body, const Inertial& inertial) {
-  for (const Flaw& flaw : body.flaws) {
-    if (flaw.of_inertia && flaw.link == body.link) source.fail_at_link(flaw.link, flaw.what);
-  }
-  if (inertial.mass_kg == 0) {
-    source.fail_at_link(body.link,
-                        "massless behind a moving joint: give it an <inertial> with mass and inertia, or make the "
-                        "joint fixed");
-  }
-  const std::string fault = inertia_fault(inertial.inertia_kgm2);
-  if (!fault.empty()) source.fail_at_link(body.link, fault);
+// Of the robot, where the file says nothing.
+constexpr double kDriveWheelShare = 0.025, kForkShare = 0.01, kCasterWheelShare = 0.005;
+
+RollingMass disc(double mass_kg, double radius_m) {
+  return {mass_kg, mass_kg * radius_m * radius_m / 2, mass_kg * radius_m * radius_m / 4};
 }
 
-Wheel make_wheel(const UrdfSource& source, const Body& body, const Inertial& inertial, const RollingWheel& rolling) {
-  check_wheel(source, body, inertial);
-  const RollingMass mass = rolling_mass(source, body, inertial, rolling.radius_m);
+// A uniform disc stands in for what cannot be: what a wheel of a few per cent of the robot's mass weighs hardly shows.
+RollingMass drive_wheel_mass(const UrdfSource& source, const Body& body, const Inertial& inertial, double robot_kg,
+                             double radius_m) {
+  std::string fault = inertial.mass_kg == 0 ? "without mass" : inertia_fault(inertial.inertia_kgm2);
+  for (const Flaw& flaw : body.flaws) {
+    if (fault.empty() && flaw.of_inertia && flaw.link == body.link) fault = flaw.what;
+  }
+  if (fault.empty()) {
+    const RollingMass mass = rolling_mass(source, body, inertial, radius_m);
+    if (mass.spin_kgm2 <= robot_kg * radius_m * radius_m) return mass;
+    fault = fmt::format("its inertia about the axle, {:.3g} kg m^2, holds more than the whole robot's mass at its rim",
+                        mass.spin_kgm2);
+  }
+  const RollingMass mass = disc(inertial.mass_kg > 0 ? inertial.mass_kg : kDriveWheelShare * robot_kg, radius_m);
+  source.remark(Remark::Kind::assumed, fmt::format("{}: {}; taken as a uniform disc of {:.3g} kg",
+                                                   source.link_text(body.link), fault, mass.mass_kg));
+  return mass;
+}
+
+Wheel make_wheel(const UrdfSource& source, const Body& body, const Inertial& inertial, double robot_kg,
+                 const RollingWheel& rolling) {
+  const RollingMass mass = drive_wheel_mass(source, body, inertial, robot_kg, rolling.radius_m);
   Wheel wheel;
   wheel.joint = body.joint;
   wheel.radius_m = rolling.radius_m;
@@ -85,8 +97,6 @@ Wheel make_wheel(const UrdfSource& source, const Body& body, const Inertial& ine
   wheel.effort_limit_nm = body.effort_limit_nm;
   return wheel;
 }
-
-constexpr double kForkShare = 0.01, kCasterWheelShare = 0.005;  // of the robot, where the file says nothing
 
 // The swivelling parts of a caster are light: what they weigh hardly shows.
 void complete_fork(const UrdfSource& source, const Body& body, double robot_kg, Caster& caster) {
@@ -107,24 +117,34 @@ RollingMass complete_wheel(const UrdfSource& source, const Body& body, Inertial 
   const double mass_kg = inertial.mass_kg > 0 ? inertial.mass_kg : kCasterWheelShare * robot_kg;
   source.remark(Remark::Kind::assumed,
                 fmt::format("{}: {}; taken as a disc of {:.3g} kg", source.link_text(body.link), fault, mass_kg));
-  return {mass_kg, mass_kg * radius_m * radius_m / 2, mass_kg * radius_m * radius_m / 4};
+  return disc(mass_kg, radius_m);
+}
+
+double sum_of(const std::vector<Inertial>& masses) {
+  double sum_kg = 0;
+  for (const Inertial& mass : masses) sum_kg += mass.mass_kg;
+  return sum_kg;
 }
 
 Caster make_caster(const UrdfSource& source, const std::vector<Body>& bodies, const std::vector<Inertial>& masses,
                    const FoundSupport& support) {
   Caster caster = support.caster;
-  double robot_kg = 0;
-  for (const Inertial& mass : masses) robot_kg += mass.mass_kg;
+  const double robot_kg = sum_of(masses);
   if (support.fork >= 0) {
     caster.fork = masses[support.fork];
     complete_fork(source, bodies[support.fork], robot_kg, caster);
   }
   if (support.wheel >= 0) {
-    const RollingMass mass =
-        complete_wheel(source, bodies[support.wheel], masses[support.wheel], robot_kg, caster.radius_m);
-    caster.wheel_mass_kg = mass.mass_kg;
-    caster.wheel_spin_inertia_kgm2 = mass.spin_kgm2;
-    caster.wheel_transverse_inertia_kgm2 = mass.transverse_kgm2;
+    std::vector<int> wheels = support.twins;
+    wheels.insert(wheels.begin(), support.wheel);
+    for (const int wheel : wheels) {
+      const RollingMass mass = complete_wheel(source, bodies[wheel], masses[wheel], robot_kg, caster.radius_m);
+      const double beside_m = (bodies[wheel].inertial.com_m - caster.centre_m).dot(bodies[wheel].axis);
+      caster.wheel_mass_kg += mass.mass_kg;
+      caster.wheel_spin_inertia_kgm2 += mass.spin_kgm2;
+      caster.wheel_transverse_inertia_kgm2 += mass.transverse_kgm2;
+      if (wheels.size() > 1) caster.wheel_transverse_inertia_kgm2 += mass.mass_kg * beside_m * beside_m;
+    }
   }
   return caster;
 }
@@ -140,6 +160,17 @@ void remark_ignored(const UrdfSource& source, const std::vector<Body>& bodies, c
   }
   if (!still.empty()) source.remark(Remark::Kind::ignored, "joints that are held at position zero: " + still);
   if (meshes > 0) source.remark(Remark::Kind::ignored, fmt::format("{} collision meshes that touch no floor", meshes));
+}
+
+// A robot this heavy on wheels this small has its masses in another unit.
+void remark_mass(const UrdfSource& source, const RobotModel& robot) {
+  constexpr double kHeaviest_kgpm3 = 1e7;  // total mass over the radius cubed; of public robots at most a tenth of it
+  const double radius_m = robot.wheels[0].radius_m, mass_kg = robot.total_mass_kg();
+  if (mass_kg < kHeaviest_kgpm3 * radius_m * radius_m * radius_m) return;
+  source.remark(Remark::Kind::assumed,
+                fmt::format("{:.4g} kg on wheels of radius {:.4g} m are taken as written: are the "
+                            "masses in grams?",
+                            mass_kg, radius_m));
 }
 
 }  // namespace
@@ -159,6 +190,7 @@ RobotModel load_robot(const std::string& urdf_file, const DriveJoints& joints, c
   for (const FoundSupport& support : supports) {
     if (support.fork >= 0) separate[support.fork] = true;
     if (support.wheel >= 0) separate[support.wheel] = true;
+    for (const int twin : support.twins) separate[twin] = true;
   }
   const std::vector<Inertial> masses = lump_by_owner(bodies, mass_owners(bodies, separate));
 
@@ -171,7 +203,7 @@ RobotModel load_robot(const std::string& urdf_file, const DriveJoints& joints, c
   for (int side = 0; side < 2; ++side) {
     const int body = wheel_bodies[side];
     require_hull_mass(source, bodies[body]);
-    model.wheels[side] = make_wheel(source, bodies[body], masses[body], drive.wheels[side]);
+    model.wheels[side] = make_wheel(source, bodies[body], masses[body], sum_of(masses), drive.wheels[side]);
     model.wheels[side].centre_m.y() = side == 0 ? half_m : -half_m;
     const Body& as_given = in_root[body];
     model.wheels[side].along_joint_m = (drive.wheels[side].centre_m - as_given.origin_m).dot(as_given.axis);
@@ -179,6 +211,7 @@ RobotModel load_robot(const std::string& urdf_file, const DriveJoints& joints, c
     model.wheels[side].slide = slide_above(source, bodies, body);
   }
   for (const FoundSupport& support : supports) model.casters.push_back(make_caster(source, bodies, masses, support));
+  remark_mass(source, model);
   remark_ignored(source, bodies, separate);
   if (remarks) *remarks = source.remarks();
   return model;

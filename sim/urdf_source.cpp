@@ -57,9 +57,16 @@ std::string read_text(const std::string& file) {
   if (std::filesystem::is_directory(file, ignored)) throw InputError({file}, "is a folder, not a URDF file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError({file}, "cannot be read: no such URDF file, or no permission");
-  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  constexpr std::size_t kMost = 16u << 20;  // far more than any; a device may never end
+  std::string text(kMost + 1, '\0');
+  stream.read(text.data(), std::streamsize(text.size()));
+  text.resize(std::size_t(stream.gcount()));
+  if (text.size() > kMost) throw InputError({file}, fmt::format("is longer than the {} bytes allowed", kMost));
   const bool blank = std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isspace(c); });
   if (blank) throw InputError({file}, "is empty, not a URDF file");
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+    throw InputError({file}, "is written in UTF-16: convert it with `iconv -f utf-16 -t utf-8`");
+  }
   return text;
 }
 
@@ -97,9 +104,12 @@ void refuse_xacro(const tinyxml2::XMLElement& element, const std::string& file) 
   };
   const std::string_view name = element.Name();
   if (name == "gazebo") return;
+  // What is left of an expansion matters only where it is used, and that is seen there.
+  if (name == "xacro:property" || name == "xacro:arg") return;
   if (name.starts_with("xacro:")) refuse(element, fmt::format("<{}>", name));
   for (const auto* attribute = element.FirstAttribute(); attribute; attribute = attribute->Next()) {
     const std::string_view value = attribute->Value();
+    if (name == "mesh" && attribute->Name() == std::string_view("filename")) continue;  // is not found, and said so
     if (value.find("${") == value.npos && value.find("$(") == value.npos) continue;
     refuse(element, fmt::format("<{}> {}=\"{}\"", name, attribute->Name(), value));
   }
@@ -158,6 +168,12 @@ UrdfSource::UrdfSource(std::string file) : file_(std::move(file)) {
   link_lines_ = lines_of(robot, "link");
   joint_lines_ = lines_of(robot, "joint");
   springs_ = springs_of(robot);
+  frictions_ = frictions_of(robot);
+  for (const auto& [link, shape] : drop_odd_collisions(robot)) {
+    remark(Remark::Kind::ignored,
+           fmt::format("link '{}': a collision {}, which is no shape of URDF (sphere, cylinder, box or mesh)", link,
+                       shape.empty() ? "without a shape" : "<" + shape + ">"));
+  }
   for (const std::string& joint : simplify(robot)) {
     remark(Remark::Kind::assumed,
            fmt::format("joint '{}': its <limit> is missing or incomplete, taken as none", joint));
@@ -183,6 +199,11 @@ std::string UrdfSource::file_name() const { return std::filesystem::path(file_).
 JointSpring UrdfSource::spring(const std::string& joint) const {
   const auto found = springs_.find(joint);
   return found == springs_.end() ? JointSpring{} : found->second;
+}
+
+std::optional<double> UrdfSource::friction(const std::string& link) const {
+  const auto found = frictions_.find(link);
+  return found == frictions_.end() ? std::nullopt : std::optional<double>(found->second);
 }
 
 std::string UrdfSource::link_text(const std::string& link) const {

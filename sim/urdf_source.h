@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ class UrdfSource {
   /// Stiffness 0 where the file gives none.
   JointSpring spring(const std::string& joint) const;
 
+  /// Of a link's surface in Gazebo's elements.
+  std::optional<double> friction(const std::string& link) const;
+
   /// What was found and taken, for those who want to read it; the source only collects it.
   void remark(Remark::Kind kind, const std::string& text) const { remarks_.push_back({kind, text}); }
   const std::vector<Remark>& remarks() const { return remarks_; }
@@ -53,6 +57,7 @@ class UrdfSource {
   std::map<std::string, int> link_lines_;
   std::map<std::string, int> joint_lines_;
   std::map<std::string, JointSpring> springs_;
+  std::map<std::string, double> frictions_;
   mutable std::vector<Remark> remarks_;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "sim/urdf_swivels.h"
 #include "sim/urdf_wheel_shape.h"
 
 namespace umbsim {
@@ -34,7 +35,8 @@ class SupportFinder {
       if (top_[i] == i && i > 0 && !std::count(drive.begin(), drive.end(), i)) add_swivel(i);
     }
     using Guess = void (SupportFinder::*)();
-    for (const Guess guess : {&SupportFinder::take_visuals, &SupportFinder::take_missed, &SupportFinder::take_meshes}) {
+    for (const Guess guess : {&SupportFinder::take_visuals, &SupportFinder::take_missed, &SupportFinder::take_swivels,
+                              &SupportFinder::take_meshes}) {
       if (!stands()) (this->*guess)();
     }
     if (!stands()) refuse_to_fall_over();
@@ -47,7 +49,8 @@ class SupportFinder {
  private:
   bool off_axle(const Eigen::Vector3d& place) const { return std::abs(place.x()) > kOffAxle_radii * radius_m_; }
   bool stands() const {
-    return std::any_of(found_.begin(), found_.end(), [&](const FoundSupport& s) { return off_axle(s.caster.centre_m); });
+    return std::any_of(found_.begin(), found_.end(),
+                       [&](const FoundSupport& s) { return off_axle(s.caster.centre_m); });
   }
 
   template <class Take>
@@ -83,9 +86,11 @@ class SupportFinder {
   // The ball that reaches the floor from where the mesh is placed; what its radius is matters on cables only.
   void take_meshes() {
     each_fixed([&](int i) {
-      for (const Shape& mesh : bodies_[i].shapes) {
+      std::vector<Shape> meshes = bodies_[i].shapes;
+      if (meshes.empty()) meshes = bodies_[i].visuals;
+      for (const Shape& mesh : meshes) {
         const double height_m = mesh.centre_m().z() + radius_m_;
-        if (mesh.kind != Shape::Kind::mesh || mesh.link.find("caster") == std::string::npos) continue;
+        if (mesh.kind != Shape::Kind::mesh || !is_called_caster(mesh.link)) continue;
         Shape ball = mesh;
         ball.kind = Shape::Kind::sphere;
         ball.radius_m = height_m > 0 && height_m <= radius_m_ ? height_m : radius_m_ / 2;
@@ -142,42 +147,20 @@ class SupportFinder {
     }
     if (touching.empty()) return;
     const auto& [index, shape] = touching[0];
-    if (touching.size() > 1 && touching[1].first != index) {
-      source_.fail_at_link(bodies_[touching[1].first].link,
-                           fmt::format("a second wheel on the floor behind the swivel {}; a caster has one",
-                                       source_.joint_text(bodies_[top].joint)));
-    }
     const Eigen::Vector3d arm = shape.centre_m() - bodies_[top].origin_m;
     const double trail = (arm - arm.dot(bodies_[top].axis) * bodies_[top].axis).norm();
-    if (shape.kind == Shape::Kind::sphere && trail <= kBallTrail_radii * shape.radius_m) return add_ball(top, shape);
-    found_.push_back(swivelling(top, index, shape));
+    const bool one = touching.size() == 1;
+    if (one && shape.kind == Shape::Kind::sphere && trail <= kBallTrail_radii * shape.radius_m)
+      return add_ball(top, shape);
+    found_.push_back(swivelling_support(source_, bodies_, top, touching));
   }
 
-  FoundSupport swivelling(int top, int index, const Shape& shape) const {
-    FoundSupport support;
-    Caster& caster = support.caster;
-    support.fork = support.body = top;
-    caster.link = shape.link;
-    caster.swivels = true;
-    caster.swivel_point_m = bodies_[top].origin_m;
-    if (index == top && shape.kind != Shape::Kind::box) {  // the wheel does not turn, the fork slides on it
-      caster.centre_m = shape.centre_m();
-      caster.radius_m = shape.radius_m;
-      return support;
+  // Casters whose shapes are meshes, or none.
+  void take_swivels() {
+    for (int i = 1; i < int(bodies_.size()); ++i) {
+      if (top_[i] != i || !is_swivel(i)) continue;
+      if (auto support = swivel_by_axle(source_, bodies_, i, radius_m_)) found_.push_back(std::move(*support));
     }
-    const bool rolls =
-        index != top && bodies_[index].parent == top && bodies_[index].continuous && is_horizontal(bodies_[index].axis);
-    if (!rolls) {
-      source_.fail_at_link(shape.link,
-                           "stands on the floor behind a swivel, but is neither a ball on the swivel axis "
-                           "nor a wheel on a continuous horizontal joint of the fork");
-    }
-    const WheelShape found = wheel_shape(source_, bodies_, index);
-    if (!found.fault.empty()) source_.fail_at_joint(bodies_[index].joint, "cannot be a caster wheel: " + found.fault);
-    support.wheel = index;
-    caster.centre_m = found.wheel.centre_m;
-    caster.radius_m = found.wheel.radius_m;
-    return support;
   }
 
   [[noreturn]] void refuse_to_fall_over() const {
@@ -190,6 +173,9 @@ class SupportFinder {
       what +=
           "Give a fixed link (joint type fixed) a <sphere> as <collision> that reaches the floor, or add a "
           "swivelling caster";
+    }
+    for (const Remark& r : source_.remarks()) {
+      if (r.kind == Remark::Kind::ignored && r.text.find("no shape of URDF") != r.text.npos) what += ". " + r.text;
     }
     source_.fail_at_link(bodies_[0].link, what + fmt::format(" (at most {:.1f} mm off counts as touching)",
                                                              1e3 * kFloorTolerance_radii * radius_m_));
@@ -223,7 +209,7 @@ Slide slide_above(const UrdfSource& source, const std::vector<Body>& bodies, int
 }
 
 std::vector<FoundSupport> find_supports(const UrdfSource& source, const std::vector<Body>& bodies,
-                                   const std::vector<int>& drive_bodies, double wheel_radius_m) {
+                                        const std::vector<int>& drive_bodies, double wheel_radius_m) {
   return SupportFinder(source, bodies, drive_bodies, wheel_radius_m).find(drive_bodies);
 }
 

@@ -13,7 +13,8 @@ struct FoundSupport {
   Caster caster;  ///< geometry; masses are filled in by load_robot
   int fork = -1;
   int wheel = -1;
-  int body = -1;  ///< that it belongs to
+  std::vector<int> twins;  ///< wheels beside `wheel`, on the same axle
+  int body = -1;           ///< that it belongs to
 };
 
 /// The prismatic upright joint that `bodies[index]` or one that carries it moves on.
@@ -29,6 +30,6 @@ Slide slide_above(const UrdfSource& source, const std::vector<Body>& bodies, int
 /// a collision ball that reaches it if the robot leans by at most 3 degrees, a mesh of a fixed link called caster.
 /// Throws InputError: another shape on the floor behind a swivel, or no third support off the axle ("falls over").
 std::vector<FoundSupport> find_supports(const UrdfSource& source, const std::vector<Body>& bodies,
-                                   const std::vector<int>& drive_bodies, double wheel_radius_m);
+                                        const std::vector<int>& drive_bodies, double wheel_radius_m);
 
 }  // namespace umbsim

@@ -36,14 +36,37 @@ bool is_vertical(const Eigen::Vector3d& axis) { return axis.head<2>().norm() < s
 
 namespace {
 
+// Tyres beside each other, or one shape given twice: the cylinder that holds them. Fault if they are not coaxial.
+WheelShape of_tyres(const Body& body, int index, const std::vector<Shape>& tyres) {
+  double low_m = 1e9, high_m = -1e9;
+  for (const Shape& tyre : tyres) {
+    const Eigen::Vector3d at = tyre.centre_m() - body.origin_m;
+    const double along_m = at.dot(body.axis);
+    const double half_m = tyre.kind == Shape::Kind::cylinder ? tyre.length_m / 2 : 0;
+    const bool aside = (at - along_m * body.axis).norm() > kEccentric_radii * tyre.radius_m;
+    if (aside || (half_m > 0 && tilt_rad(tyre.pose.linear().col(2), body.axis) > kAlong_rad)) {
+      return {
+          {},
+          fmt::format("two collision shapes of radius {:g} m could be the wheel, and are not on one axis; leave one",
+                      tyres[0].radius_m)};
+    }
+    low_m = std::min(low_m, along_m - half_m);
+    high_m = std::max(high_m, along_m + half_m);
+  }
+  return {{index, body.origin_m + (low_m + high_m) / 2 * body.axis, tyres[0].radius_m, high_m - low_m,
+           fmt::format("its {} coaxial shapes", tyres.size())},
+          {}};
+}
+
 WheelShape of_primitives(const Body& body, int index, const std::vector<Shape>& shapes) {
   std::vector<Shape> round;
   std::copy_if(shapes.begin(), shapes.end(), std::back_inserter(round), is_round);
   std::sort(round.begin(), round.end(), [](const Shape& a, const Shape& b) { return a.radius_m > b.radius_m; });
   const Shape& shape = round.front();
-  if (round.size() > 1 && round[1].radius_m > shape.radius_m * (1 - kSameRadius)) {
-    return {{}, fmt::format("two collision shapes of radius {:g} m could be the wheel; leave one", shape.radius_m)};
-  }
+  const auto tyres = std::count_if(round.begin(), round.end(), [&](const Shape& other) {
+    return other.radius_m > shape.radius_m * (1 - kSameRadius);
+  });
+  if (tyres > 1) return of_tyres(body, index, {round.begin(), round.begin() + tyres});
   if (shape.kind == Shape::Kind::cylinder) {
     const double tilt = tilt_rad(shape.pose.linear().col(2), body.axis);
     if (tilt > kAlong_rad) {

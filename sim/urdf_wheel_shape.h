@@ -23,7 +23,7 @@ struct RollingWheel {
   int body = -1;
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< on the joint axis
   double radius_m = 0;
-  double width_m = 0;  ///< 0 for a sphere
+  double width_m = 0;        ///< 0 for a sphere
   std::string taken_from{};  ///< what stands in the place of a collision shape; empty: nothing
   double lowest_m() const { return centre_m.z() - radius_m; }
 };

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/yaml_reader.h"
 #include "exchange/bag/mcap_records.h"
+#include "exchange/bag/unpacked_file.h"
 
 namespace umbsim::exchange {
 namespace {
@@ -27,10 +28,27 @@ bool is_mcap(const std::string& begin) { return begin.starts_with(mcap::kMagic);
 bool is_sqlite(const std::string& begin) { return begin.starts_with("SQLite format 3"); }
 bool is_ros1(const std::string& begin) { return begin.starts_with("#ROSBAG V"); }
 
-void refuse_compressed(const std::string& file) {
-  throw InputError(SourceMark{file},
-                   fmt::format("is compressed as a whole: unpack it with `zstd -d {}` and give that", file));
+std::unique_ptr<Bag> open_by(const std::string& begin, const std::string& file, const UnpackedFile* unpacked) {
+  if (is_mcap(begin)) return open_mcap(file, unpacked);
+  if (is_sqlite(begin)) return open_db3(file, unpacked);
+  if (is_ros1(begin)) return open_ros1(file, unpacked);
+  throw InputError(SourceMark{file}, begin.empty() ? "is empty" : "is no bag: neither MCAP, SQLite (.db3) nor ROS 1");
 }
+
+/// A bag in a file that was packed as a whole.
+class PackedBag : public Bag {
+ public:
+  explicit PackedBag(const std::string& file)
+      : unpacked_(file), bag_(open_by(beginning(unpacked_.path()), file, &unpacked_)) {}
+  const std::vector<Topic>& topics() const override { return bag_->topics(); }
+  void read(const std::set<std::size_t>& topics, const std::function<void(const BagMessage&)>& take) const override {
+    bag_->read(topics, take);
+  }
+
+ private:
+  UnpackedFile unpacked_;
+  std::unique_ptr<Bag> bag_;
+};
 
 // Files as metadata.yaml lists them, else by name.
 std::vector<std::string> files_in(const fs::path& folder) {
@@ -39,9 +57,6 @@ std::vector<std::string> files_in(const fs::path& folder) {
     const YamlValue document = YamlValue::load((folder / "metadata.yaml").string());
     YamlMap top(document);
     YamlMap information(top.at("rosbag2_bagfile_information"));
-    if (const auto mode = information.find("compression_mode"); mode && mode->string() == "MESSAGE") {
-      mode->fail("messages are compressed one by one: convert the bag with `ros2 bag convert`");
-    }
     for (const YamlValue& name : information.at("relative_file_paths").list()) {
       files.push_back((folder / fs::path(name.string()).filename()).string());
       if (!fs::exists(files.back())) name.fail(fmt::format("'{}' is not in the folder", files.back()));
@@ -64,23 +79,19 @@ std::vector<std::string> bag_files(const std::string& path) {
   if (fs::is_directory(path, ignored) && files.empty()) {
     throw InputError(SourceMark{path}, "is a folder without a bag (metadata.yaml, .db3 or .mcap)");
   }
-  for (const std::string& file : files) {
-    if (beginning(file).starts_with("\x28\xb5\x2f\xfd")) refuse_compressed(file);
-  }
   if (!fs::is_directory(path, ignored)) {
     const std::string begin = beginning(path), extension = fs::path(path).extension().string();
     const bool named = extension == ".bag" || extension == ".db3" || extension == ".mcap";
-    if (!is_mcap(begin) && !is_sqlite(begin) && !is_ros1(begin) && !named) return {};
+    if (!is_mcap(begin) && !is_zstd(begin.data(), begin.size()) && !is_sqlite(begin) && !is_ros1(begin) && !named)
+      return {};
   }
   return files;
 }
 
 std::unique_ptr<Bag> open_bag(const std::string& file) {
   const std::string begin = beginning(file);
-  if (is_mcap(begin)) return open_mcap(file);
-  if (is_sqlite(begin)) return open_db3(file);
-  if (is_ros1(begin)) return open_ros1(file);
-  throw InputError(SourceMark{file}, begin.empty() ? "is empty" : "is no bag: neither MCAP, SQLite (.db3) nor ROS 1");
+  if (is_zstd(begin.data(), begin.size())) return std::make_unique<PackedBag>(file);
+  return open_by(begin, file, nullptr);
 }
 
 }  // namespace umbsim::exchange

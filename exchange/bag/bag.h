@@ -38,15 +38,17 @@ class Bag {
   virtual void read(const std::set<std::size_t>& topics, const std::function<void(const BagMessage&)>& take) const = 0;
 };
 
-std::unique_ptr<Bag> open_mcap(const std::string& file);
-std::unique_ptr<Bag> open_db3(const std::string& file);
-std::unique_ptr<Bag> open_ros1(const std::string& file);
+class UnpackedFile;
 
-/// The files of a bag: `path` itself, or those of a rosbag2 folder in their order; empty if it is no bag. Throws
-/// InputError for compressed files.
+/// `file` is what messages call it; `unpacked`: where its bytes are, if zstd packed it as a whole.
+std::unique_ptr<Bag> open_mcap(const std::string& file, const UnpackedFile* unpacked = nullptr);
+std::unique_ptr<Bag> open_db3(const std::string& file, const UnpackedFile* unpacked = nullptr);
+std::unique_ptr<Bag> open_ros1(const std::string& file, const UnpackedFile* unpacked = nullptr);
+
+/// The files of a bag: `path` itself, or those of a rosbag2 folder in their order; empty if it is no bag.
 std::vector<std::string> bag_files(const std::string& path);
 
-/// Opens one file by what it begins with.
+/// Opens one file by what it begins with, through zstd where that packed the file.
 std::unique_ptr<Bag> open_bag(const std::string& file);
 
 }  // namespace umbsim::exchange

@@ -21,7 +21,7 @@ const char* const kJointState = "sensor_msgs/JointState";
 const char* const kOdometry = "nav_msgs/Odometry";
 const char* const kTf = "tf2_msgs/TFMessage";
 
-bool is_known(const std::string& type) { return type == kJointState || holds_poses(type); }
+bool is_known(const std::string& type) { return type == kJointState || holds_poses(type) || holds_commands(type); }
 
 // Whether a topic has both wheels by the names of its joints.
 bool has_wheels(const JointStates& states) {
@@ -102,20 +102,85 @@ void BagSource::wheels_of_odometry(const std::string& name, Log& log) const {
                   name, t.at.size(), base));
 }
 
-void BagSource::wheels(Log& log) const {
+// Where several commands pass through a robot (navigation, smoother, multiplexer), the last one is called cmd_vel.
+std::string BagSource::choose_commands(Log& log) const {
+  if (!options_.commands.empty()) {
+    const Topic& t = topic(options_.commands, "--commands");
+    if (holds_commands(t.type)) return t.name;
+    throw InputError(fmt::format("{}: --commands {}: {} holds no speeds (must be geometry_msgs/Twist or TwistStamped)",
+                                 path_, t.name, t.type));
+  }
+  std::vector<std::string> all = topics_of({"geometry_msgs/Twist", "geometry_msgs/TwistStamped"});
+  std::erase_if(all, [](const std::string& name) { return name.find("cmd") == std::string::npos; });
+  std::vector<std::string> last = all;
+  std::erase_if(last, [](const std::string& name) { return !("/" + name).ends_with("/cmd_vel"); });
+  if (all.size() == 1) return all.front();
+  if (last.size() == 1) return last.front();
+  if (!all.empty()) {
+    log.found.push_back(
+        fmt::format("commands: several topics, none read: {}; choose one with --commands", fmt::join(all, ", ")));
+  }
+  return "";
+}
+
+void BagSource::commands(Log& log) const {
+  const std::string name = options_.commands == "none" ? "" : choose_commands(log);
+  if (name.empty()) return;
+  BodyCommands commands{name, {}, {}, {}};
+  read_commands(bags_, name, [&](Nanoseconds at, double linear_mps, double angular_radps) {
+    const std::size_t number = commands.at.size() + 1;
+    if (!std::isfinite(linear_mps) || !std::isfinite(angular_radps)) {
+      throw InputError(fmt::format("{}: {}: message {}: a speed is not a finite number", path_, name, number));
+    }
+    if (!commands.at.empty() && at < commands.at.back()) {
+      throw InputError(fmt::format("{}: {}: message {}: its time comes before the one before: stamps must increase",
+                                   path_, name, number));
+    }
+    commands.at.push_back(at);
+    commands.linear_mps.push_back(linear_mps);
+    commands.angular_radps.push_back(angular_radps);
+  });
+  if (commands.at.empty()) return;
+  log.found.push_back(
+      fmt::format("commands: {} messages of {}, turned into wheel speeds by the wheel radius and "
+                  "wheelbase as believed",
+                  commands.at.size(), name));
+  log.body_command = std::move(commands);
+}
+
+void BagSource::named(const std::function<void()>& work) const {
+  try {
+    work();
+  } catch (const InputError& e) {
+    const std::string what = e.what();
+    const bool told = what.find(path_) != what.npos || what.find(options_.source) != what.npos;
+    throw InputError(told ? what : path_ + ": " + what);
+  }
+}
+
+void BagSource::read_wheels(Log& log) const {
   log.found.push_back(fmt::format("{}: {} topics: {}", path_, topics_.size(), list()));
   for (const Topic& t : topics_) {
     if (!is_known(t.type)) log.found.push_back(fmt::format("not used: {} ({})", t.name, t.type));
   }
   if (!options_.encoders.empty()) {
     const Topic& chosen = topic(options_.encoders, "--encoders");
-    if (chosen.type == kOdometry) return wheels_of_odometry(chosen.name, log);
+    if (chosen.type == kOdometry) {
+      wheels_of_odometry(chosen.name, log);
+      return commands(log);
+    }
     if (chosen.type != kJointState) {
       throw InputError(fmt::format("{}: --encoders {}: {} holds no wheels (must be {} or {})", path_, chosen.name,
                                    chosen.type, kJointState, kOdometry));
     }
-    return read_joint_states(bags_, chosen.name, [&](JointStates& s) { s.into(log, options_); });
+    read_joint_states(bags_, chosen.name, [&](JointStates& s) { s.into(log, options_); });
+    return commands(log);
   }
+  wheels_of_joints(log);
+  commands(log);
+}
+
+void BagSource::wheels_of_joints(Log& log) const {
   const std::vector<std::string> names = topics_of({kJointState});
   std::vector<JointStates> with_wheels, all;
   for (const std::string& name : names) {
@@ -158,7 +223,7 @@ std::string BagSource::choose_truth() const {
       list()));
 }
 
-void BagSource::truth(Log& log) const {
+void BagSource::read_truth(Log& log) const {
   const std::string chosen = choose_truth();
   PlanarTrack track(chosen, options_.up);
   std::size_t number = 0;

@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
 #include <map>
 
 #include "core/error.h"
+#include "core/progress.h"
 #include "exchange/bag/bag.h"
+#include "exchange/bag/unpacked_file.h"
 
 namespace umbsim::exchange {
 namespace {
@@ -48,9 +51,9 @@ class Query {
 };
 
 // SQLite reads a file without its last pages until it needs them: its header says how many there are.
-void check_length(const std::string& file) {
+void check_length(const std::string& file, const std::string& path) {
   std::array<unsigned char, 100> head{};
-  std::ifstream in(file, std::ios::binary);
+  std::ifstream in(path, std::ios::binary);
   in.read(reinterpret_cast<char*>(head.data()), std::streamsize(head.size()));
   const auto number = [&](std::size_t at) {
     return std::uint64_t(head[at]) << 24 | std::uint64_t(head[at + 1]) << 16 | std::uint64_t(head[at + 2]) << 8 |
@@ -58,27 +61,28 @@ void check_length(const std::string& file) {
   };
   const std::uint64_t page = head[16] == 0 && head[17] == 1 ? 65536 : std::uint64_t(head[16]) << 8 | head[17];
   const bool counted = number(24) == number(92) && number(28) > 0;  // by a version that keeps the count
-  const std::uint64_t size = std::filesystem::file_size(file);
+  const std::uint64_t size = std::filesystem::file_size(path);
   if (!in || (counted && size < page * number(28))) {
     throw InputError(SourceMark{file}, fmt::format("is cut off: it has {} of {} bytes", size, page * number(28)));
   }
 }
 
+void check_closed(const std::string& file) {
+  std::error_code ignored;
+  const std::string log = file + "-wal";
+  if (!std::filesystem::exists(log, ignored) || std::filesystem::file_size(log, ignored) == 0) return;
+  throw InputError(SourceMark{file},
+                   fmt::format("was not closed: what was recorded last lies in {}; `sqlite3 {} 'PRAGMA "
+                               "wal_checkpoint'` puts it back",
+                               log, file));
+}
+
 class Db3Bag : public Bag {
  public:
-  explicit Db3Bag(const std::string& file) : file_(file) {
-    check_length(file);
-    std::error_code ignored;
-    const std::string log = file + "-wal";
-    if (std::filesystem::exists(log, ignored) && std::filesystem::file_size(log, ignored) > 0) {
-      throw InputError(SourceMark{file},
-                       fmt::format("was not closed: what was recorded last lies in {}; `sqlite3 {} 'PRAGMA "
-                                   "wal_checkpoint'` puts it back",
-                                   log, file));
-    }
-    // Read only, and without the files that a write-ahead log would make beside it.
-    const std::string uri = "file:" + escaped(std::filesystem::absolute(file).string()) + "?mode=ro&immutable=1";
-    if (sqlite3_open_v2(uri.c_str(), &db_, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr) != SQLITE_OK) {
+  Db3Bag(const std::string& file, const UnpackedFile* unpacked) : file_(file) {
+    check_length(file, unpacked ? unpacked->path() : file);
+    if (!unpacked) check_closed(file);
+    if ((unpacked ? open_memory(*unpacked) : open_file()) != SQLITE_OK) {
       const std::string why = sqlite3_errmsg(db_);
       sqlite3_close(db_);
       throw InputError(SourceMark{file}, "cannot be read: " + why);
@@ -104,7 +108,11 @@ class Db3Bag : public Bag {
     Query rows(
         db_, file_,
         "SELECT topic_id, timestamp, data FROM messages WHERE topic_id IN (" + list + ") ORDER BY timestamp, id");
-    while (rows.next()) {
+    Query last(db_, file_, "SELECT max(id) FROM messages");
+    const auto total = std::max<std::int64_t>(last.next() ? last.integer(0) : 0, 1);
+    Progress progress("reading " + std::filesystem::path(file_).filename().string(), 100);
+    for (std::int64_t row = 0; rows.next(); ++row) {
+      progress.reach(int(100 * row / total));
       BagMessage m{by_id[rows.integer(0)], rows.integer(1), nullptr, 0};
       m.data = rows.blob(2, m.size);
       take(m);
@@ -112,6 +120,21 @@ class Db3Bag : public Bag {
   }
 
  private:
+  // Read only, and without the files that a write-ahead log would make beside it.
+  int open_file() {
+    const std::string uri = "file:" + escaped(std::filesystem::absolute(file_).string()) + "?mode=ro&immutable=1";
+    return sqlite3_open_v2(uri.c_str(), &db_, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+  }
+
+  int open_memory(const UnpackedFile& unpacked) {
+    constexpr std::size_t kWriteVersion = 18, kReadVersion = 19;  // 2: of a write-ahead log, which memory has not
+    for (const std::size_t at : {kWriteVersion, kReadVersion}) unpacked.data()[at] = 1;
+    const int result = sqlite3_open(":memory:", &db_);
+    if (result != SQLITE_OK) return result;
+    const auto size = sqlite3_int64(unpacked.size());
+    return sqlite3_deserialize(db_, "main", unpacked.data(), size, size, SQLITE_DESERIALIZE_READONLY);
+  }
+
   static std::string escaped(const std::string& path) {
     std::string out;
     for (const char c : path)
@@ -147,6 +170,8 @@ class Db3Bag : public Bag {
 
 }  // namespace
 
-std::unique_ptr<Bag> open_db3(const std::string& file) { return std::make_unique<Db3Bag>(file); }
+std::unique_ptr<Bag> open_db3(const std::string& file, const UnpackedFile* unpacked) {
+  return std::make_unique<Db3Bag>(file, unpacked);
+}
 
 }  // namespace umbsim::exchange

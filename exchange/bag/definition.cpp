@@ -70,6 +70,7 @@ geometry_msgs/PoseWithCovarianceStamped header:std_msgs/Header pose:geometry_msg
 geometry_msgs/Transform translation:geometry_msgs/Vector3 rotation:geometry_msgs/Quaternion
 geometry_msgs/TransformStamped header:std_msgs/Header child_frame_id:string transform:geometry_msgs/Transform
 geometry_msgs/Twist linear:geometry_msgs/Vector3 angular:geometry_msgs/Vector3
+geometry_msgs/TwistStamped header:std_msgs/Header twist:geometry_msgs/Twist
 geometry_msgs/TwistWithCovariance twist:geometry_msgs/Twist covariance:float64[36]
 nav_msgs/Odometry header:std_msgs/Header child_frame_id:string pose:geometry_msgs/PoseWithCovariance twist:geometry_msgs/TwistWithCovariance
 sensor_msgs/JointState header:std_msgs/Header name:string[] position:float64[] velocity:float64[] effort:float64[]

@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 
 #include "core/error.h"
+#include "core/progress.h"
 #include "exchange/bag/bag.h"
 #include "exchange/bag/mapped_file.h"
 #include "exchange/bag/mcap_records.h"
+#include "exchange/bag/unpacked_file.h"
 
 namespace umbsim::exchange {
 namespace {
@@ -22,7 +25,8 @@ struct Schema {
 
 class McapBag : public Bag {
  public:
-  explicit McapBag(const std::string& file) : file_(file), map_(file) {
+  McapBag(const std::string& file, const UnpackedFile* unpacked)
+      : file_(file), map_(unpacked ? unpacked->path() : file) {
     check_ends();
     // Chunks hold schemas and channels again before their messages; one pass finds all of them.
     read({}, {});
@@ -32,7 +36,9 @@ class McapBag : public Bag {
 
   void read(const std::set<std::size_t>& wanted, const std::function<void(const BagMessage&)>& take) const override {
     try {
-      records(Fields(map_.data() + mcap::kMagic.size(), map_.size() - 2 * mcap::kMagic.size()), wanted, take);
+      Progress progress("reading " + std::filesystem::path(file_).filename().string(), 100);
+      records(Fields(map_.data() + mcap::kMagic.size(), map_.size() - 2 * mcap::kMagic.size()), wanted, take,
+              &progress);
     } catch (const std::out_of_range&) {
       throw InputError(SourceMark{file_}, "is damaged: a record goes beyond its end");
     } catch (const InputError& e) {
@@ -57,9 +63,10 @@ class McapBag : public Bag {
   }
 
   // Remembers what a record defines; passes messages on.
-  void records(Fields in, const std::set<std::size_t>& wanted,
-               const std::function<void(const BagMessage&)>& take) const {
+  void records(Fields in, const std::set<std::size_t>& wanted, const std::function<void(const BagMessage&)>& take,
+               Progress* progress) const {
     while (in.left() >= kRecordHead) {
+      if (progress) progress->reach(int(100 - 100 * in.left() / map_.size()));
       const auto opcode = in.number<std::uint8_t>();
       const auto size = in.number<std::uint64_t>();
       Fields record(in.take(size), size);
@@ -85,7 +92,7 @@ class McapBag : public Bag {
     const std::string compression = in.text();
     const auto packed = in.number<std::uint64_t>();
     const std::vector<std::uint8_t> bytes = mcap::unpacked(compression, in.take(packed), packed, size, crc);
-    records(Fields(bytes.data(), bytes.size()), wanted, take);
+    records(Fields(bytes.data(), bytes.size()), wanted, take, nullptr);
   }
 
   void schema(Fields& in) const {
@@ -127,6 +134,8 @@ class McapBag : public Bag {
 
 }  // namespace
 
-std::unique_ptr<Bag> open_mcap(const std::string& file) { return std::make_unique<McapBag>(file); }
+std::unique_ptr<Bag> open_mcap(const std::string& file, const UnpackedFile* unpacked) {
+  return std::make_unique<McapBag>(file, unpacked);
+}
 
 }  // namespace umbsim::exchange

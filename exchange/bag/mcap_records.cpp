@@ -48,6 +48,11 @@ std::uint32_t crc32_of(const void* data, std::size_t size) {
 std::vector<std::uint8_t> unpacked(const std::string& compression, const std::uint8_t* data, std::size_t size,
                                    std::uint64_t unpacked_size, std::uint32_t crc32) {
   if (unpacked_size > kLargestChunk) throw InputError(fmt::format("a chunk of {} bytes is damaged", unpacked_size));
+  // Neither packs closer than this; a size beyond is not worth its memory.
+  constexpr std::uint64_t kClosest = 1 << 16, kSmall = 1 << 16;
+  if (unpacked_size > kSmall + kClosest * std::uint64_t(size)) {
+    throw InputError(fmt::format("a chunk is damaged: {} bytes cannot hold {}", size, unpacked_size));
+  }
   std::vector<std::uint8_t> out(unpacked_size);
   if (compression.empty()) {
     if (size != unpacked_size) throw InputError("a chunk is damaged: its sizes differ");

@@ -4,18 +4,21 @@
 #include <rosbag/view.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "core/error.h"
+#include "core/progress.h"
 #include "exchange/bag/bag.h"
+#include "exchange/bag/unpacked_file.h"
 
 namespace umbsim::exchange {
 namespace {
 
 class Ros1Bag : public Bag {
  public:
-  explicit Ros1Bag(const std::string& file) : file_(file) {
+  Ros1Bag(const std::string& file, const UnpackedFile* unpacked) : file_(file) {
     guarded([&] {
-      bag_.open(file, rosbag::bagmode::Read);
+      bag_.open(unpacked ? unpacked->path() : file, rosbag::bagmode::Read);
       rosbag::View view(bag_);
       for (const rosbag::ConnectionInfo* c : view.getConnections()) {
         const bool known =
@@ -33,7 +36,9 @@ class Ros1Bag : public Bag {
     guarded([&] {
       rosbag::View view(bag_, rosbag::TopicQuery(names));
       std::vector<std::uint8_t> bytes;
+      Progress progress("reading " + std::filesystem::path(file_).filename().string(), int(view.size()));
       for (const rosbag::MessageInstance& m : view) {
+        progress.step();
         const auto topic =
             std::find_if(topics_.begin(), topics_.end(), [&](const Topic& t) { return t.name == m.getTopic(); });
         bytes.resize(m.size());
@@ -66,6 +71,8 @@ class Ros1Bag : public Bag {
 
 }  // namespace
 
-std::unique_ptr<Bag> open_ros1(const std::string& file) { return std::make_unique<Ros1Bag>(file); }
+std::unique_ptr<Bag> open_ros1(const std::string& file, const UnpackedFile* unpacked) {
+  return std::make_unique<Ros1Bag>(file, unpacked);
+}
 
 }  // namespace umbsim::exchange

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "exchange/bag/unpacked_file.h"
 
 namespace umbsim::exchange {
 namespace {
@@ -56,11 +57,15 @@ std::vector<std::string> stamp_paths(const Topic& t, const std::string& prefix, 
 /// Reads one topic of one bag.
 class TopicReader {
  public:
-  TopicReader(const Topic& t, std::vector<std::string> paths, const std::string& prefix)
-      : name_(t.name), reader_(make(t, std::move(paths), prefix)) {}
+  TopicReader(const Topic& t, std::vector<std::string> paths, const std::string& prefix, bool stamped)
+      : name_(t.name), reader_(make(t, std::move(paths), prefix, stamped)) {}
 
   void read(const BagMessage& m, MessageValues& values, std::size_t number) const {
     try {
+      if (is_zstd(m.data, m.size)) {  // no CDR header and no message of ROS 1 that is read begins so
+        const std::vector<std::uint8_t> message = unpacked_message(m.data, m.size);
+        return reader_.read(message.data(), message.size(), values);
+      }
       reader_.read(m.data, m.size, values);
     } catch (const InputError& e) {
       throw InputError(fmt::format("topic {}: message {}: {}", name_, number, e.what()));
@@ -68,11 +73,13 @@ class TopicReader {
   }
 
  private:
-  static MessageReader make(const Topic& t, std::vector<std::string> paths, const std::string& prefix) {
+  static MessageReader make(const Topic& t, std::vector<std::string> paths, const std::string& prefix, bool stamped) {
     try {
       const Definitions definitions = definitions_of(t);
-      const std::vector<std::string> stamp = stamp_paths(t, prefix, definitions);
-      paths.insert(paths.begin(), stamp.begin(), stamp.end());
+      if (stamped) {
+        const std::vector<std::string> stamp = stamp_paths(t, prefix, definitions);
+        paths.insert(paths.begin(), stamp.begin(), stamp.end());
+      }
       return MessageReader(t.type, definitions, paths, wire_of(t));
     } catch (const InputError& e) {
       throw InputError(fmt::format("topic {}: {}", t.name, e.what()));
@@ -90,7 +97,7 @@ Nanoseconds stamp_of(double sec, double nanosec, Nanoseconds received) {
 
 template <class Take>
 void read_topic(const Bags& bags, const std::string& name, const std::vector<std::string>& paths,
-                const std::string& prefix, const Take& take) {
+                const std::string& prefix, const Take& take, bool stamped = true) {
   std::size_t number = 0;
   MessageValues values;
   for (const auto& bag : bags) {
@@ -100,7 +107,7 @@ void read_topic(const Bags& bags, const std::string& name, const std::vector<std
     for (std::size_t i = 0; i < topics.size(); ++i) {
       if (topics[i].name != name) continue;
       wanted.insert(i);
-      readers.emplace(i, TopicReader(topics[i], paths, prefix));
+      readers.emplace(i, TopicReader(topics[i], paths, prefix, stamped));
     }
     if (wanted.empty()) continue;
     bag->read(wanted, [&](const BagMessage& m) {
@@ -110,7 +117,21 @@ void read_topic(const Bags& bags, const std::string& name, const std::vector<std
   }
 }
 
+std::string type_of(const Bags& bags, const std::string& topic) {
+  std::string type;
+  for (const auto& bag : bags) {
+    for (const Topic& t : bag->topics()) {
+      if (t.name == topic) type = t.type;
+    }
+  }
+  return type;
+}
+
 }  // namespace
+
+bool holds_commands(const std::string& type) {
+  return type == "geometry_msgs/Twist" || type == "geometry_msgs/TwistStamped";
+}
 
 bool holds_poses(const std::string& type) { return pose_types().count(type) > 0; }
 
@@ -125,13 +146,7 @@ void read_joint_states(const Bags& bags, const std::string& topic, const std::fu
 }
 
 void read_poses(const Bags& bags, const std::string& topic, const std::function<void(const StampedPose&)>& take) {
-  std::string type;
-  for (const auto& bag : bags) {
-    for (const Topic& t : bag->topics()) {
-      if (t.name == topic) type = t.type;
-    }
-  }
-  const PosePaths& p = pose_types().at(type);
+  const PosePaths& p = pose_types().at(type_of(bags, topic));
   std::vector<std::string> paths = {p.prefix + "header.frame_id",
                                     p.prefix + (p.child ? "child_frame_id" : "header.frame_id")};
   for (const char* c : {".x", ".y", ".z"}) paths.push_back(p.prefix + p.position + c);
@@ -150,6 +165,20 @@ void read_poses(const Bags& bags, const std::string& topic, const std::function<
       take(s);
     }
   });
+}
+
+void read_commands(const Bags& bags, const std::string& topic,
+                   const std::function<void(Nanoseconds, double, double)>& take) {
+  const bool stamped = type_of(bags, topic) == "geometry_msgs/TwistStamped";
+  const std::string prefix = stamped ? "twist." : "";
+  const std::size_t first = stamped ? 2 : 0;
+  read_topic(
+      bags, topic, {prefix + "linear.x", prefix + "angular.z"}, "",
+      [&](const MessageValues& v, Nanoseconds received, std::size_t) {
+        take(stamped ? stamp_of(v.numbers[0].at(0), v.numbers[1].at(0), received) : received, v.numbers[first].at(0),
+             v.numbers[first + 1].at(0));
+      },
+      stamped);
 }
 
 }  // namespace umbsim::exchange

@@ -26,7 +26,13 @@ bool holds_poses(const std::string& type);
 
 /// Calls `take` for every message of a topic, file after file. `stamps`: how often the header's stamp was used rather
 /// than the time of receipt, which is taken where the header has none.
+/// Whether messages of this type hold commanded speeds.
+bool holds_commands(const std::string& type);
+
 void read_joint_states(const Bags& bags, const std::string& topic, const std::function<void(JointStates&)>& done);
 void read_poses(const Bags& bags, const std::string& topic, const std::function<void(const StampedPose&)>& take);
+/// `take`: stamp (of receipt where the type has none), linear speed along x and angular speed about z.
+void read_commands(const Bags& bags, const std::string& topic,
+                   const std::function<void(Nanoseconds, double, double)>& take);
 
 }  // namespace umbsim::exchange

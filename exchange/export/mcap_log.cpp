@@ -58,15 +58,20 @@ Nanoseconds stamp(double time_s) { return kLogBegins_ns + Nanoseconds(std::llrou
 
 /// The channels of an exported log.
 struct Channels {
-  std::uint16_t joints, odometry, truth, tf;
+  std::uint16_t joints, odometry, truth, tf, commands;
 };
 
-Channels add_channels(mcap::Writer& writer) {
+bool has_commands(const Recording& recording) {
+  return std::any_of(recording.runs.begin(), recording.runs.end(), [](const RecordedRun& r) { return r.has_commands; });
+}
+
+Channels add_channels(mcap::Writer& writer, bool commands) {
   const auto add = [&](const char* topic, const std::string& package, const std::string& name) {
     return writer.add_topic(topic, package + "/msg/" + name, ros2_definition(package + "/" + name));
   };
   return {add("/joint_states", "sensor_msgs", "JointState"), add("/odom", "nav_msgs", "Odometry"),
-          add("/truth", "geometry_msgs", "PoseStamped"), add("/tf", "tf2_msgs", "TFMessage")};
+          add("/truth", "geometry_msgs", "PoseStamped"), add("/tf", "tf2_msgs", "TFMessage"),
+          commands ? add("/cmd_vel", "geometry_msgs", "TwistStamped") : std::uint16_t(0)};
 }
 
 void add_counts(mcap::Writer& writer, const Channels& c, Nanoseconds at, const EncoderSample& s, double ticks,
@@ -76,6 +81,15 @@ void add_counts(mcap::Writer& writer, const Channels& c, Nanoseconds at, const E
   m.header(at, "").count(2).text(joints[0]).text(joints[1]);
   m.count(2).numbers({k * double(s.left_ticks), k * double(s.right_ticks)}).count(0).count(0);
   writer.add(c.joints, at, m.bytes());
+}
+
+// Speeds of the body that a drive controller turns into those of the wheels, by what it believes of them.
+void add_command(mcap::Writer& writer, const Channels& c, Nanoseconds at, const EncoderSample& s,
+                 const RecordedRobot& robot) {
+  const double left = robot.wheel_radius_m * s.left_command_radps, right = robot.wheel_radius_m * s.right_command_radps;
+  Message m;
+  m.header(at, "base_link").numbers({(left + right) / 2, 0, 0, 0, 0, (right - left) / robot.wheelbase_m});
+  writer.add(c.commands, at, m.bytes());
 }
 
 // Once a run: the odometry starts where the robot stands.
@@ -92,7 +106,7 @@ void add_odometry(mcap::Writer& writer, const Channels& c, Nanoseconds at, const
 
 std::string mcap_log(const Recording& recording, const std::string& left_joint, const std::string& right_joint) {
   mcap::Writer writer("ros2", "umbsim");
-  const Channels channels = add_channels(writer);
+  const Channels channels = add_channels(writer, has_commands(recording));
   const double ticks = recording.robot.ticks_per_revolution;
   for (const Placed& p : one_log(recording)) {
     const std::vector<Pose2> odometry = reckoned(*p.run, believed(recording.robot));
@@ -109,6 +123,7 @@ std::string mcap_log(const Recording& recording, const std::string& left_joint, 
       const Nanoseconds at = stamp(p.begin_s + s.time_s);
       add_counts(writer, channels, at, s, ticks, {left_joint, right_joint});
       add_odometry(writer, channels, at, odometry[i]);
+      if (p.run->has_commands) add_command(writer, channels, at, s, recording.robot);
     }
     truth_until(p.to_s);
   }
@@ -117,8 +132,9 @@ std::string mcap_log(const Recording& recording, const std::string& left_joint, 
 
 std::string rosbag2_metadata(const Recording& recording, const std::string& file) {
   const std::vector<Placed> log = one_log(recording);
-  std::size_t counts = 0, poses = 0;
+  std::size_t counts = 0, poses = 0, commands = 0;
   for (const RecordedRun& run : recording.runs) {
+    commands += run.has_commands ? run.encoders.size() : 0;
     counts += run.encoders.size();
     poses += run.truth.size();
   }
@@ -127,11 +143,13 @@ std::string rosbag2_metadata(const Recording& recording, const std::string& file
   std::string text = fmt::format(
       "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: mcap\n  duration:\n    nanoseconds: {}\n"
       "  starting_time:\n    nanoseconds_since_epoch: {}\n  message_count: {}\n  topics_with_message_count:\n",
-      to - from, kLogBegins_ns + from, 3 * counts + poses);
+      to - from, kLogBegins_ns + from, 3 * counts + poses + commands);
   for (const auto& [topic, type, count] : {std::tuple{"/joint_states", "sensor_msgs/msg/JointState", counts},
                                            std::tuple{"/odom", "nav_msgs/msg/Odometry", counts},
                                            std::tuple{"/truth", "geometry_msgs/msg/PoseStamped", poses},
-                                           std::tuple{"/tf", "tf2_msgs/msg/TFMessage", counts}}) {
+                                           std::tuple{"/tf", "tf2_msgs/msg/TFMessage", counts},
+                                           std::tuple{"/cmd_vel", "geometry_msgs/msg/TwistStamped", commands}}) {
+    if (count == 0) continue;
     text += fmt::format(
         "    - topic_metadata:\n        name: {}\n        type: {}\n        serialization_format: cdr\n"
         "        offered_qos_profiles: \"\"\n      message_count: {}\n",

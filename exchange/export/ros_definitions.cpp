@@ -23,6 +23,8 @@ const std::map<std::string, Definition>& definitions() {
       {"geometry_msgs/PoseStamped", {"std_msgs/Header header\nPose pose\n", {"std_msgs/Header", "geometry_msgs/Pose"}}},
       {"geometry_msgs/PoseWithCovariance", {"Pose pose\nfloat64[36] covariance\n", {"geometry_msgs/Pose"}}},
       {"geometry_msgs/Twist", {"Vector3  linear\nVector3  angular\n", {"geometry_msgs/Vector3"}}},
+      {"geometry_msgs/TwistStamped",
+       {"std_msgs/Header header\nTwist twist\n", {"std_msgs/Header", "geometry_msgs/Twist"}}},
       {"geometry_msgs/TwistWithCovariance", {"Twist twist\nfloat64[36] covariance\n", {"geometry_msgs/Twist"}}},
       {"geometry_msgs/Transform",
        {"Vector3 translation\nQuaternion rotation\n", {"geometry_msgs/Vector3", "geometry_msgs/Quaternion"}}},

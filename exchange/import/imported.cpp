@@ -68,6 +68,9 @@ std::string with_options(const std::string& what) {
       std::abs(ratio * 180 / M_PI - 1) < 0.1) {
     return what + " (For import: the wheels' numbers are degrees, not radians.)";
   }
+  if (says("commands") || says("_command_radps")) {
+    return what + " (For import: --commands for another topic, or --commands none to leave them out.)";
+  }
   if (says("swapped")) {
     return what + " (For import: exchange --left-joint and --right-joint, or --left-column and --right-column.)";
   }

@@ -39,10 +39,18 @@ struct Track {
   std::vector<Pose2> pose;
 };
 
+/// Commanded speeds of the body, as a drive controller takes them.
+struct BodyCommands {
+  std::string name;
+  std::vector<Nanoseconds> at;
+  std::vector<double> linear_mps, angular_radps;
+};
+
 /// What was found in a source, before it is a recording.
 struct Log {
   WheelSignal left, right;
   std::optional<WheelSignal> left_command, right_command;
+  std::optional<BodyCommands> body_command;  ///< where the wheels' own are not known
   Track truth;
   std::vector<std::string> found;  ///< what was understood, a line each, for the reader to check
 };

@@ -24,6 +24,7 @@ struct ImportOptions {
 
   // Topics of a bag, or the beginning of columns' names.
   std::string encoders, truth;
+  std::string commands;  ///< topic of a bag; `none`: leave them out
   std::string left_joint, right_joint;
 
   // The robot.

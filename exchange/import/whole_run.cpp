@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "core/error.h"
 #include "exchange/import/clock_offset.h"
 #include "exchange/import/counts.h"
 #include "exchange/import/interpolate.h"
+#include "exchange/import/wheel_commands.h"
 
 namespace umbsim::exchange {
 namespace {
@@ -63,12 +65,16 @@ void add_encoders(const Log& log, RecordedRobot& robot, Nanoseconds zero, Record
   };
   const bool together = log.left.at == log.right.at;
   if (!together) found.push_back("the wheels were read at different times: the right one is taken between its samples");
-  run.has_commands = log.left_command.has_value();
+  std::optional<WheelSignal> left_signal = log.left_command, right_signal = log.right_command;
+  if (log.body_command && !left_signal) {
+    std::tie(left_signal, right_signal) = wheel_commands(*log.body_command, robot.wheelbase_m, found);
+  }
+  run.has_commands = left_signal.has_value();
   Interpolator at_right(log.right.at, right);
   std::optional<Held> left_command, right_command;
   if (run.has_commands) {
-    left_command.emplace(log.left_command->at, log.left_command->value);
-    right_command.emplace(log.right_command->at, log.right_command->value);
+    left_command.emplace(left_signal->at, left_signal->value);
+    right_command.emplace(right_signal->at, right_signal->value);
   }
   for (std::size_t i = 0; i < log.left.at.size(); ++i) {
     const Nanoseconds t = log.left.at[i];
@@ -76,8 +82,8 @@ void add_encoders(const Log& log, RecordedRobot& robot, Nanoseconds zero, Record
     EncoderSample s{seconds(t - zero), ticks(log.left, left[i]), ticks(log.right, together ? right[i] : at_right.at(t)),
                     0, 0};
     if (run.has_commands) {
-      s.left_command_radps = command_scale(log.left_command->unit, robot.wheel_radius_m) * left_command->at(t);
-      s.right_command_radps = command_scale(log.right_command->unit, robot.wheel_radius_m) * right_command->at(t);
+      s.left_command_radps = command_scale(left_signal->unit, robot.wheel_radius_m) * left_command->at(t);
+      s.right_command_radps = command_scale(right_signal->unit, robot.wheel_radius_m) * right_command->at(t);
     }
     run.encoders.push_back(s);
   }

@@ -193,7 +193,7 @@ ColumnMeaning meaning_of(const std::string& column) {
   const std::set<std::string> kTime = {"time", "t", "timestamp", "stamp", "zeit"};
   if (has({words.back()}, kTime) || (has(words, kTime) && !is_wheel_unit(m.unit))) {
     m.role = Role::time;
-    if (column == "__time") m.unit = "s";
+    if (column == "__time") m.unit = std::string(1, 's');  // not = "s": GCC 12 then warns of an overlap
     return m;
   }
   m.rate = has(words, {"velocity", "vel", "speed", "rate", "omega"});

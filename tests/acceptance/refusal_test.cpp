@@ -78,14 +78,14 @@ TEST(Refusal, MissingScenario) { expect_refusal(Desk(), {"run", "none.yaml"}, {"
 
 TEST(Refusal, FolderInsteadOfScenario) { expect_refusal(Desk(), {"run", "."}, {"directory"}); }
 
-TEST(Refusal, RobotWithAMasslessWheel) {
+TEST(Refusal, RobotWithAMasslessHull) {
   const Desk desk;
   std::string urdf = text_of(fs::path(UMBSIM_SOURCE_DIR) / "robots/labmate.urdf");
-  const std::string mass = "<mass value=\"1\"/>";
+  const std::string mass = "<mass value=\"40\"/>";
   urdf.replace(urdf.find(mass), mass.size(), "<mass value=\"0\"/>");
   desk.put("broken.urdf", urdf);
   desk.put("bad.yaml", "format: umbsim-scenario/1\nrobot: {urdf: broken.urdf}\n");
-  expect_refusal(desk, {"run", "bad.yaml"}, {"broken.urdf", "left_wheel", "mass"});
+  expect_refusal(desk, {"run", "bad.yaml"}, {"broken.urdf", "base_link", "mass"});
 }
 
 // The centre of mass behind the axle, the only caster ahead of it: the robot tips over.

@@ -115,5 +115,47 @@ TEST(RobotCommand, AWheelWithoutLoadIsSaidEverywhere) {
   EXPECT_NE(text_of(desk.home / "out/report.html").find("carried no load"), std::string::npos);
 }
 
+// Its caster points forward at the start and elsewhere at the end, so that it leans otherwise on its springs: an
+// encoder counts that. By statics it goes with the springs' travel, and not with the way.
+TEST(RobotCommand, OnSpringsACasterThatTurnsIsAnOffsetAndNoDrift) {
+  const Desk desk;
+  const std::string urdf = std::string(UMBSIM_SOURCE_DIR) + "/tests/sim/urdf/as_they_come/twin_wheel_caster.urdf";
+  const auto off_m = [&](const std::string& side_m, const std::string& travel_m) {
+    const Outcome run = desk.umbsim(
+        {"run", shipped("nominal"), "--force", "--out", "out", "--set", "robot.urdf=" + urdf, "--set",
+         "course.side_m=" + side_m, "--set", "runs.per_direction=1", "--set", "calibration.method=none", "--set",
+         "robot.suspension={wheel_travel_m: " + travel_m + ", caster_travel_m: " + travel_m + "}"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    return json_of(desk.home / "out/summary.json").at("umbmark").at("cw").at("centroid_x_m").get<double>();
+  };
+  const double rigid = off_m("1", "0"), soft = off_m("1", "0.02"), far = off_m("3", "0.02"), half = off_m("1", "0.01");
+  EXPECT_LT(std::abs(rigid), 1.2e-5);  // supports sink by 0.1 mm
+  EXPECT_GT(std::abs(soft), 4e-5);
+  EXPECT_NEAR(far / soft, 1, 0.05);
+  EXPECT_NEAR(half / soft, 0.5, 0.05);
+}
+
+// Each of this project's own robots with what public ones are like, as it comes.
+TEST(RobotCommand, RobotsAsTheyComeDriveASquare) {
+  const Desk desk;
+  const fs::path folder = fs::path(UMBSIM_SOURCE_DIR) / "tests/sim/urdf/as_they_come";
+  const std::set<std::string> refused = {"millimetres", "car", "four_wheels_mimic", "omni", "balancing"};
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".urdf") continue;
+    SCOPED_TRACE(entry.path().filename());
+    const Outcome run = desk.umbsim({"run", shipped("nominal"), "--force", "--out", "out", "--set",
+                                     "robot.urdf=" + entry.path().string(), "--set", "course.side_m=0.3", "--set",
+                                     "course.linear_acceleration_mps2=0.1", "--set", "runs.per_direction=1", "--set",
+                                     "calibration.method=none"});
+    const bool driven = !refused.count(entry.path().stem().string());
+    EXPECT_EQ(run.code, driven ? 0 : kBadInput) << run.err;
+    if (!driven || run.code != 0) continue;
+    const json umbmark = json_of(desk.home / "out/summary.json").at("umbmark");
+    EXPECT_LT(umbmark.at("e_max_syst_m").get<double>(), 1e-3) << "a flawless robot comes back";
+    // What its recording carries is read again without what lies beside the original.
+    EXPECT_EQ(desk.umbsim({"calibrate", "out", "--out", "again", "--method", "heading", "--force"}).code, 0);
+  }
+}
+
 }  // namespace
 }  // namespace umbsim::acceptance

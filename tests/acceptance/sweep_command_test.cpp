@@ -35,6 +35,18 @@ TEST_F(SweepCommand, WritesItsFolder) {
   EXPECT_EQ(result.at("done"), 6);
 }
 
+TEST_F(SweepCommand, WarningsOfItsPointsAreKeptAndTold) {
+  const Outcome outcome = sweep("format: umbsim-sweep/1\nscenario: tiny.yaml\nset: {calibration.method: none}\n"
+                                "axes:\n  effects.wheelbase.relative: [0.01, 0.45]\n");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  expect_says(unwrapped(outcome.out), {"1 points with warnings", "point 1, effects.wheelbase.relative=0.45",
+                                       "heading is off by more than a radian"});
+  const json warned = json_of(desk_.home / "s/sweep.json").at("warned");
+  ASSERT_EQ(warned.size(), 1u);
+  EXPECT_EQ(warned[0].at("point"), 1);
+  EXPECT_EQ(exported({"--columns", "point,warnings"}), "point,warnings\n0,0\n1,1\n");
+}
+
 // A point of a sweep is the run of its scenario.
 TEST_F(SweepCommand, APointIsARun) {
   ASSERT_EQ(sweep(tiny_sweep(3)).code, 0);

@@ -50,6 +50,20 @@ class StoreTest : public testing::Test {
   std::string folder_;
 };
 
+TEST_F(StoreTest, KeepsWarningsAndMergesThem) {
+  Store a = open("a.sqlite");
+  StoredPoint warned = point(2);
+  warned.warnings = {"a wheel flew", "it's far off"};
+  a.put(warned);
+  a.put(point(3));
+  Store b = open("b.sqlite");
+  b.put(point(1));
+  b.take_over(file("a.sqlite"));
+  const std::vector<std::pair<std::int64_t, std::string>> both{{2, "a wheel flew"}, {2, "it's far off"}};
+  EXPECT_EQ(a.warnings(), both);
+  EXPECT_EQ(b.warnings(), both);
+}
+
 TEST_F(StoreTest, KnowsWhatIsMissing) {
   Store store = open();
   for (const std::int64_t number : {1, 4}) store.put(point(number));

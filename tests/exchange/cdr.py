@@ -33,6 +33,10 @@ DEFINITIONS = {
         ("geometry_msgs/TwistWithCovariance", "Twist twist\nfloat64[36] covariance\n"),
         ("geometry_msgs/Twist", "Vector3  linear\nVector3  angular\n"), ("geometry_msgs/Vector3", POINT),
         *STAMPED, *POSE),
+    "geometry_msgs/msg/Twist": defined("Vector3  linear\nVector3  angular\n", ("geometry_msgs/Vector3", POINT)),
+    "geometry_msgs/msg/TwistStamped": defined(
+        "std_msgs/Header header\nTwist twist\n", ("geometry_msgs/Twist", "Vector3  linear\nVector3  angular\n"),
+        ("geometry_msgs/Vector3", POINT), *STAMPED),
     "std_msgs/msg/String": "string data\n",
 }
 
@@ -87,6 +91,14 @@ def pose_stamped(ns, frame, position, quaternion):
 def odometry(ns, frame, child, position, quaternion):
     return (Cdr().header(ns, frame).string(child).doubles(position).doubles(quaternion).doubles([0.0] * 36)
             .doubles([0.0] * 6).doubles([0.0] * 36).bytes())
+
+
+def twist(linear, angular):
+    return Cdr().doubles([linear, 0.0, 0.0, 0.0, 0.0, angular]).bytes()
+
+
+def twist_stamped(ns, linear, angular):
+    return Cdr().header(ns, "base_link").doubles([linear, 0.0, 0.0, 0.0, 0.0, angular]).bytes()
 
 
 def tf_message(transforms):

@@ -269,6 +269,68 @@ def spoiled_files():
         for i, (t, x, y, a) in enumerate(poses)])
 
 
+def body_speeds(wl, wr):
+    """What a drive controller is told so that it makes these wheel speeds, by what it believes."""
+    return BELIEVED["wheel_radius_m"] * (wl + wr) / 2, BELIEVED["wheel_radius_m"] * (wr - wl) / BELIEVED["wheelbase_m"]
+
+
+def with_commands(file, kind, topic, rows, others=()):
+    """The first 15 s with commands of the body at every row of the wheels that `rows` keeps."""
+    def command(t, wl, wr):
+        v, w = body_speeds(wl, wr)
+        return cdr.twist_stamped(t, v, w) if kind.endswith("Stamped") else cdr.twist(v, w)
+    topics, messages = ros2_messages()
+    messages = [m for m in messages if m[0] < ROWS[300][0]]
+    topics.update({t: "geometry_msgs/msg/Twist" for t in others})
+    topics[topic] = kind
+    more = [(t, topic, command(t, wl, wr)) for i, (t, _, _, wl, wr) in enumerate(ROWS[:300]) if rows(i)]
+    more += [(t, o, cdr.twist(0.7, 0.7)) for o in others for t, *_ in ROWS[:300:10]]
+    mcap.write(path(file), with_definitions(topics), merged(messages, more), "zstd")
+
+
+def database(file, topics, messages, packed=False):
+    with sqlite3.connect(file) as db:
+        db.execute("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
+                   "serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL)")
+        db.execute("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT "
+                   "NULL, data BLOB NOT NULL)")
+        ids = {topic: i + 1 for i, topic in enumerate(topics)}
+        db.executemany("INSERT INTO topics VALUES(?,?,?,'cdr','')", [(ids[t], t, k) for t, k in topics.items()])
+        db.executemany("INSERT INTO messages(topic_id, timestamp, data) VALUES(?,?,?)",
+                       [(ids[t], ns, mcap.zstd(data) if packed else data) for ns, t, data in messages])
+    db.close()
+
+
+def packed_files():
+    """rosbag2 with --compression-mode file and message, and an MCAP file that somebody packed."""
+    topics, messages = ros2_messages()
+    messages = [m for m in messages if m[0] < ROWS[300][0]]
+    for mode, name in (("FILE", "by_file"), ("MESSAGE", "by_message")):
+        folder = path("packed_" + name)
+        os.makedirs(folder, exist_ok=True)
+        file = os.path.join(folder, name + "_0.db3")
+        if os.path.exists(file):
+            os.remove(file)
+        database(file, topics, messages, mode == "MESSAGE")
+        if mode == "FILE":
+            with open(file, "rb") as plain, open(file + ".zstd", "wb") as packed:
+                packed.write(mcap.zstd(plain.read()))
+            os.remove(file)
+            file += ".zstd"
+        with open(os.path.join(folder, "metadata.yaml"), "w") as f:
+            f.write("rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n  compression_format: zstd"
+                    f"\n  compression_mode: {mode}\n  relative_file_paths:\n    - {os.path.basename(file)}\n")
+    with open(path("spoiled/good.mcap"), "rb") as plain, open(path("packed.mcap.zst"), "wb") as packed:
+        packed.write(mcap.zstd(plain.read()))
+
+
+def command_files():
+    with_commands("commands.mcap", "geometry_msgs/msg/Twist", "/cmd_vel", lambda i: True, ["/cmd_vel_nav"])
+    # For three quarters of a second on the first side nothing is commanded.
+    with_commands("commands_stamped.mcap", "geometry_msgs/msg/TwistStamped", "/diff_drive_controller/cmd_vel",
+                  lambda i: i < 70 or i >= 85)
+
+
 os.makedirs(FOLDER, exist_ok=True)
 csv_files()
 mcap_files()
@@ -276,3 +338,5 @@ db3_files()
 ros1_file()
 if len(sys.argv) < 3:
     spoiled_files()
+    command_files()
+    packed_files()

@@ -58,6 +58,29 @@ TEST(CompletedLinks, LightLinkWithAnImpossibleInertia) {
   EXPECT_THROW(read(plus(kRobot, finger(bad, "1"))), InputError);
 }
 
+TEST(CompletedLinks, DriveWheelsAreDiscs) {
+  const char* inertial =
+      "  <inertial><mass value=\"1\"/><inertia ixx=\"0.003\" ixy=\"0\" ixz=\"0\" iyy=\"0.005\" iyz=\"0\" "
+      "izz=\"0.003\"/></inertial>\n";
+  const Read none = read(with(kRobot, inertial, ""));
+  EXPECT_TRUE(none.says(Kind::assumed, "link 'wheel_l'", "without mass; taken as a uniform disc of 0.275 kg"));
+  EXPECT_NEAR(none.robot.wheels[0].mass_kg, 0.025 * 11, 1e-12);  // of the hull and the other wheel
+  EXPECT_NEAR(none.robot.wheels[0].spin_inertia_kgm2, 0.275 * 0.1 * 0.1 / 2, 1e-12);
+  const Read impossible = read(with(kRobot, "iyy=\"0.005\"", "iyy=\"0.007\""));
+  EXPECT_TRUE(impossible.says(Kind::assumed, "link 'wheel_l'", "triangle inequality"));
+  EXPECT_NEAR(impossible.robot.wheels[0].spin_inertia_kgm2, 0.005, 1e-12);
+  const Read copied = read(with(kRobot, "ixx=\"0.003\" ixy=\"0\" ixz=\"0\" iyy=\"0.005\" iyz=\"0\" izz=\"0.003\"",
+                                "ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\""));
+  EXPECT_TRUE(copied.says(Kind::assumed, "link 'wheel_l'", "more than the whole robot's mass at its rim"));
+}
+
+TEST(CompletedLinks, WheelsAreBalanced) {
+  const Read got =
+      read(with(kRobot, "<inertial><mass value=\"1\"", "<inertial><origin xyz=\"0.02 0 0\"/><mass value=\"1\""));
+  EXPECT_TRUE(got.says(Kind::assumed, "link 'wheel_l'", "0.02 m off the joint axis; taken as on it"));
+  EXPECT_NEAR(got.robot.wheels[0].spin_inertia_kgm2, 0.005, 1e-12);
+}
+
 TEST(CompletedLinks, ShapeOfNoSize) {
   const std::string sonar =
       "<link name=\"sonar\"><collision><geometry><box size=\"0 0.1 0.1\"/></geometry></collision></link>"
