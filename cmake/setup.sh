@@ -12,6 +12,7 @@ root=$(cd "${BASH_SOURCE[0]%setup.sh}.." && pwd)
 build="$root/build/release"
 program="$build/umbsim"
 stamp="$build/umbsim.stamp"
+first_build=no
 dpkg_status="${DPKG_ADMINDIR:-/var/lib/dpkg}/status"
 
 say() { printf 'umbsim: %s\n' "$*" >&2; }
@@ -60,11 +61,14 @@ show_log() {
   return 1
 }
 
-# run_ninja TARGET...: as `quietly`, with a line of progress on a terminal while something is compiled or linked.
+# run_ninja TARGET...: as `quietly`, with a line of progress on a terminal while something is compiled or linked, and
+# elsewhere a line every ten per cent of a first build.
 run_ninja() {
   local status=0
   if [ -t 2 ]; then
     NINJA_STATUS='@%p ' ninja -C "$build" "$@" 2>&1 | show_progress > "$build/build.log" || status=$?
+  elif [ "$first_build" = yes ]; then
+    NINJA_STATUS='@%p ' ninja -C "$build" "$@" 2>&1 | say_progress > "$build/build.log" || status=$?
   else
     NINJA_STATUS='@%p ' ninja -C "$build" "$@" > "$build/build.log" 2>&1 || status=$?
   fi
@@ -83,6 +87,19 @@ show_progress() {
   [ -z "$shown" ] || printf '\r\033[K' >&2
 }
 
+# Copies ninja's lines, and says when another tenth of them is done.
+say_progress() {
+  local line percent tenths=0
+  while IFS= read -r line; do
+    printf '%s\n' "$line"
+    [[ "$line" =~ ^@\ *([0-9]+)% ]] || continue
+    percent=${BASH_REMATCH[1]}
+    [ $((percent / 10)) -gt "$tenths" ] || continue
+    tenths=$((percent / 10))
+    say "built $((tenths * 10)) %"
+  done
+}
+
 # A build folder knows where its project stood when it was configured.
 forget_other_place() {
   local cache="$build/CMakeCache.txt"
@@ -94,6 +111,7 @@ build_targets() {
   mkdir -p "$build"
   forget_other_place
   if [ ! -f "$build/build.ninja" ]; then
+    first_build=yes
     say "configuring and building in build/release; this takes some minutes the first time"
     (cd "$root" && quietly cmake --preset release) || { say "configuring failed"; return 1; }
   fi

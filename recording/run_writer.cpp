@@ -1,11 +1,11 @@
 #include "recording/run_writer.h"
 
-#include <fmt/compile.h>
-
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 
+#include "core/decimal.h"
 #include "core/error.h"
 #include "recording/names.h"
 
@@ -16,13 +16,28 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kBuffered = 1 << 16;
 
-/// `value` to the nearest 1e-9 (of metre, radian, second), below any sensor; so 0.1 + 0.2 is written as 0.3.
-double rounded(double value) {
-  constexpr double kDecimals = 1e9;
-  constexpr double kLargest = 9e6;  // above, 1e-9 is finer than a double
-  if (std::abs(value) > kLargest) return value;
-  return std::round(value * kDecimals) / kDecimals + 0.0;  // + 0.0 turns -0 into 0
-}
+// One row, value by value.
+class Row {
+ public:
+  Row& add(double value) {
+    end_ = write_decimal(separated(), value);
+    return *this;
+  }
+  Row& add(std::int64_t value) {
+    end_ = std::to_chars(separated(), text_ + sizeof text_, value).ptr;
+    return *this;
+  }
+  void append_to(fmt::memory_buffer& text) const { text.append(text_, static_cast<const char*>(end_)); }
+
+ private:
+  char* separated() {
+    if (end_ != text_) *end_++ = ',';
+    return end_;
+  }
+
+  char text_[6 * kDecimalRoom];  // of at most five values
+  char* end_ = text_;
+};
 
 void check_finite(bool finite, const std::string& id, const char* file, double time_s) {
   if (!finite) throw RunError(fmt::format("run '{}': {} has a non-finite value at {} s", id, file, time_s));
@@ -83,9 +98,10 @@ void RunWriter::add(const EncoderSample& row) {
   const double left = row.left_command_radps, right = row.right_command_radps;
   check_finite(std::isfinite(row.time_s) && std::isfinite(left) && std::isfinite(right), id_, "encoders.csv",
                row.time_s);
-  const fmt::appender out(encoders_.text());
-  fmt::format_to(out, FMT_COMPILE("{},{},{}"), rounded(row.time_s), row.left_ticks, row.right_ticks);
-  if (has_commands_) fmt::format_to(out, FMT_COMPILE(",{},{}"), rounded(left), rounded(right));
+  Row written;
+  written.add(row.time_s).add(row.left_ticks).add(row.right_ticks);
+  if (has_commands_) written.add(left).add(right);
+  written.append_to(encoders_.text());
   encoders_.end_row();
 }
 
@@ -94,8 +110,8 @@ void RunWriter::add(const TruthSample& row) {
   check_finite(
       std::isfinite(row.time_s) && std::isfinite(X_WB.x_m) && std::isfinite(X_WB.y_m) && std::isfinite(X_WB.theta_rad),
       id_, "truth.csv", row.time_s);
-  fmt::format_to(fmt::appender(truth_.text()), FMT_COMPILE("{},{},{},{}"), rounded(row.time_s), rounded(X_WB.x_m),
-                 rounded(X_WB.y_m), rounded(X_WB.theta_rad));
+  Row written;
+  written.add(row.time_s).add(X_WB.x_m).add(X_WB.y_m).add(X_WB.theta_rad).append_to(truth_.text());
   truth_.end_row();
 }
 

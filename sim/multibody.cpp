@@ -268,6 +268,7 @@ MultiBody::Lever MultiBody::lever(int joint, const Vector3d& point_m, const Vect
     else add(current(j));
     l.joint[l.joints++] = j;
   }
+  if (l.joints == 1) l.turn_m[1].setZero();
   return l;
 }
 

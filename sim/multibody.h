@@ -64,8 +64,9 @@ struct HeldBody {
     Eigen::Vector3d spinning;          ///< angular momentum per rate of the wheel
     double fork_kgm2, wheel_kgm2;
     double fork_kgm2ps, wheel_kgm2ps;  ///< change of momentum along each joint in the step without contacts
-  } leg[4];
+  } leg[6];
   int legs = 0;
+  int wheel_leg[2] = {-1, -1};  ///< of drive wheels that their motors do not hold: legs without a fork
 };
 
 /// The robot as a Bullet btMultiBody, seen in base-frame coordinates.
@@ -104,7 +105,8 @@ class MultiBody {
 
   /// How momentum changes in `step_s` under gravity and gyroscopic forces while the motors hold `target_radps`, and the
   /// masses that carry it (sim/held_body.cpp): the equations of motion of the same tree in closed form, for sim/rolling.cpp.
-  HeldBody held(double step_s, const std::array<double, 2>& target_radps) const;
+  /// `free`: wheels that are not held.
+  HeldBody held(double step_s, const std::array<double, 2>& target_radps, const std::array<bool, 2>& free) const;
   const std::vector<SwivelLeg>& legs() const { return legs_; }
   const Eigen::Vector3d& centre_of_mass() const { return com_B_; }  ///< of the base
 

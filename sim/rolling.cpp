@@ -19,8 +19,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kRounds = 6;
-constexpr int kNewtonSteps = 15;
-constexpr double kBalanced = 1e-11;     // of the largest impulse
 constexpr double kConeSlack = 1e-12;    // as that of the contact solver
 constexpr double kFastestKick_mps = 1;  // that a push may give in a step, where it makes contacts doubtful
 
@@ -39,10 +37,14 @@ double bounded(int& side, double speed, double give, double limit, bool& changes
 
 }  // namespace
 
+// An eccentric rim is taken where its wheel will be, which must be known.
 bool World::State::may_roll() const {
   if (options.general_steps) return false;
-  return std::none_of(drivetrain.motor.begin(), drivetrain.motor.end(),
-                      [](const Motor& m) { return m.backlash_rad > 0 || m.torque_limit_nm <= 0; });
+  for (int i = 0; i < 2; ++i) {
+    const Motor& m = drivetrain.motor[i];
+    if (robot.wheels[i].eccentricity_m > 0 && (m.backlash_rad > 0 || m.torque_limit_nm <= 0)) return false;
+  }
+  return true;
 }
 
 // Those that are contacts whatever the velocity without contacts will be. False where that is not known yet.
@@ -53,17 +55,32 @@ bool World::State::find_certain_contacts(double step_s, const std::array<double,
   return !doubtful;
 }
 
-// Speed of the contact's point before the step, with the wheels at their set speeds.
-void World::State::start_contact(const Contact& c, const std::array<double, 2>& target_radps, Sticking& now) const {
+// Speed of the contact's point before the step, with held wheels at their set speeds.
+void World::State::start_contact(const Contact& c, const Rolling& now, Sticking& sticking) const {
   const Support& s = supports[c.support];
   const DofVector& before = body.velocity();
-  now.known = before.segment<3>(3) + Vector3d(before.head<3>()).cross(c.lever.arm_m);
-  now.leg = s.joint >= 2 ? (s.joint - 2) / 2 : -1;
+  sticking.known = before.segment<3>(3) + Vector3d(before.head<3>()).cross(c.lever.arm_m);
   if (s.wheel >= 0) {
-    now.known += target_radps[s.wheel] * c.lever.turn_m[0];
+    sticking.known += now.wheel_radps[s.wheel] * c.lever.turn_m[0];
+    sticking.leg = now.held.wheel_leg[s.wheel];
     return;
   }
-  for (int i = 0; i < c.lever.joints; ++i) now.known += before[6 + c.lever.joint[i]] * c.lever.turn_m[i];
+  sticking.leg = s.joint >= 2 ? (s.joint - 2) / 2 : -1;
+  for (int i = 0; i < c.lever.joints; ++i) sticking.known += before[6 + c.lever.joint[i]] * c.lever.turn_m[i];
+}
+
+// As add_backlash() of the general step; the wheel's speed without contacts is the one before.
+void World::State::start_shafts(double step_s, const std::array<double, 2>& target_radps, Rolling& now) const {
+  for (int i = 0; i < 2; ++i) {
+    const Motor& m = drivetrain.motor[i];
+    Shaft& shaft = now.shaft[i] = {0, target_radps[i], m.torque_limit_nm * step_s};
+    if (m.backlash_rad <= 0) continue;
+    const double play_rad = shaft_rad[i] - body.joint_angle(i), lag_radps = body.velocity()[6 + i] - target_radps[i];
+    const double forward = (m.backlash_rad / 2 - play_rad) / step_s,
+                 backward = (m.backlash_rad / 2 + play_rad) / step_s;
+    shaft.side = lag_radps + forward <= -lag_radps + backward ? 1 : -1;
+    shaft.radps = shaft.side > 0 ? target_radps[i] - forward : target_radps[i] + backward;
+  }
 }
 
 // One spring carries both: the floor's and a cable's.
@@ -73,11 +90,13 @@ bool World::State::shares_spring(const Contact& c) const {
          });
 }
 
-bool World::State::start_rolling(double step_s, const std::array<double, 2>& target_radps, Rolling& now) {
-  now.held = body.held(step_s, target_radps);
+bool World::State::start_rolling(double step_s, Rolling& now) {
+  const std::array<bool, 2> free{wheel_is_free(0, now), wheel_is_free(1, now)};
+  for (int i = 0; i < 2; ++i) now.wheel_radps[i] = free[std::size_t(i)] ? body.velocity()[6 + i] : now.shaft[i].radps;
+  now.held = body.held(step_s, {now.wheel_radps[0], now.wheel_radps[1]}, free);
   for (int i = 0; i < contacts; ++i) {
     if (sprung && shares_spring(contact[i])) return false;
-    start_contact(contact[i], target_radps, now.sticking[i]);
+    start_contact(contact[i], now, now.sticking[i]);
     now.patch[i] = turning_patch(contact[i], step_s);
   }
   int leg = 0;
@@ -89,7 +108,6 @@ bool World::State::start_rolling(double step_s, const std::array<double, 2>& tar
       now.swivel[leg].compliance = swivel_compliance(c.swivel_friction_nm, rolling_radps, step_s);
     ++leg;
   }
-  if (grip.contacts != contacts) grip = {}, grip.contacts = contacts;
   return true;
 }
 
@@ -125,7 +143,11 @@ bool World::State::solve_rolling(Rolling& now, StickingProblem& motion) const {
     else
       motion.turn(axis, grip.patch[i] * now.patch[i].limit);
   }
-  for (int leg = 0; leg < now.held.legs; ++leg) {
+  for (int i = 0; i < 2; ++i) {
+    const int leg = now.held.wheel_leg[i], state = grip.motor[i];
+    if (leg >= 0 && std::abs(state) == 1) motion.turn_wheel(leg, state * now.shaft[i].limit);
+  }
+  for (int leg = 0; leg < int(body.legs().size()); ++leg) {
     if (now.swivel[leg].limit == 0) continue;
     const double rate = body.velocity()[6 + body.legs()[std::size_t(leg)].fork];
     if (grip.swivel[leg] == 0)
@@ -170,7 +192,7 @@ Laws World::State::check_bounded(const StickingProblem& motion, Rolling& now) {
   for (int i = 0; i < contacts; ++i) {
     if (now.patch[i].turns) check(grip.patch[i], contact[i].direction[0].dot(turning), now.patch[i]);
   }
-  for (int leg = 0; leg < now.held.legs; ++leg) {
+  for (int leg = 0; leg < int(body.legs().size()); ++leg) {
     const double rate = body.velocity()[6 + body.legs()[std::size_t(leg)].fork] + motion.fork_radps(leg);
     if (now.swivel[leg].limit > 0) check(grip.swivel[leg], rate, now.swivel[leg]);
   }
@@ -182,74 +204,6 @@ bool World::State::stops_change(double step_s, const Rolling& now) {
   double force_n[8]{};
   for (int i = 0; i < contacts; ++i) force_n[contact[i].support] += now.force[i].z() / step_s;
   return change_stops(step_s, force_n);
-}
-
-// Impulse per speed of a locked body, at each contact.
-void World::State::set_likeness(Rolling& now) const {
-  const MassAbout& all = now.held.all;
-  const Vector3d centre = all.moment_kgm / all.mass_kg;
-  const Eigen::Matrix3d own = centre.squaredNorm() * Eigen::Matrix3d::Identity() - centre * centre.transpose();
-  const Eigen::Matrix3d turns = (all.inertia_kgm2 - all.mass_kg * own).inverse();
-  for (int i = 0; i < contacts; ++i) {
-    double speed[3];
-    for (int k = 0; k < 3; ++k) {
-      const Vector3d turn = (contact[i].lever.arm_m - centre).cross(contact[i].direction[k]);
-      speed[k] =
-          1 / all.mass_kg + turn.dot(turns * turn) + (k == 0 || contact[i].friction > 0 ? contact[i].compliance[k] : 0);
-    }
-    now.like[i] = {1 / speed[0], 2 / (speed[1] + speed[2])};
-  }
-}
-
-void World::State::take_tangents(Rolling& now) {
-  for (int i = 0; i < contacts; ++i) {
-    const Tangent t = now.tangent[i] = tangent(contact[i], now.touch[i], now.like[i]);
-    Sticking& s = now.sticking[i];
-    s.give = t.give;
-    s.push = t.push - t.give * s.known;
-    s.slides = t.slides;
-    grip.open[i] = t.open;
-  }
-}
-
-// What the tangents say of the contacts. Returns how far this is from the laws, of the largest impulse.
-double World::State::touch_all(Rolling& now) {
-  double off = 0, largest = 1e-9;
-  for (int i = 0; i < contacts; ++i) {
-    const Contact& c = contact[i];
-    const Touch& t = now.touch[i] = touch(c, now.tangent[i], now.sticking[i].known + now.change[i]);
-    now.force[i] = t.impulse[0] * c.direction[0];
-    if (c.friction > 0) now.force[i] += t.impulse[1] * c.direction[1] + t.impulse[2] * c.direction[2];
-    largest = std::max(largest, t.impulse.cwiseAbs().maxCoeff());
-    off = std::max(off, unbalance(c, t, now.like[i]));
-  }
-  return off / largest;
-}
-
-// Newton's method, from what `now.touch` says.
-bool World::State::slide(double step_s, const Impulse& given, Rolling& now, StickingProblem& motion) {
-  for (int i = 0; i < kNewtonSteps; ++i) {
-    set_springs(step_s);
-    take_tangents(now);
-    motion.start(now.held, given, none_slides(now));
-    if (!solve_rolling(now, motion)) return false;
-    const bool balanced = touch_all(now) < kBalanced;
-    const bool stops = stops_change(step_s, now);
-    if (check_bounded(motion, now) == Laws::hold && balanced && !stops) return true;
-  }
-  return false;
-}
-
-// What the contacts did in the step before.
-void World::State::take_touch_before(Rolling& now) const {
-  for (int i = 0; i < contacts; ++i) {
-    Touch& t = now.touch[i];
-    t.slip = grip.slip[i];
-    t.impulse.setZero();
-    if (problem.contacts != contacts) continue;
-    const ContactRows& before = problem.contact[i];
-    for (int k = 0; k < (before.friction > 0 ? 3 : 1); ++k) t.impulse[k] = impulses[before.normal + k];
-  }
 }
 
 bool World::State::none_slides(const Rolling& now) const {
@@ -281,21 +235,41 @@ bool World::State::hold_or_slide(double step_s, const Impulse& given, Rolling& n
   return slide(step_s, given, now, motion);
 }
 
-// Whether both motors can give what holds the wheels at their speeds.
-bool World::State::motors_hold(double step_s, const std::array<double, 2>& target_radps, const Rolling& now,
-                               const Vector3d& turning) const {
-  std::array<double, 2> impulse;
+// What a motor does that was supposed to be in the state of `grip`: it holds its wheel within its limit, is at its
+// limit and still behind its set speed, or has play that does not close.
+int World::State::motor_state(int wheel, double impulse, double radps, const Rolling& now) const {
+  const Shaft& shaft = now.shaft[wheel];
+  const int state = grip.motor[wheel];
+  if (shaft.limit <= 0) return 0;
+  if (state == 0) {
+    if (shaft.side * impulse < 0) return 2;
+    return (impulse > shaft.limit) - (impulse < -shaft.limit);
+  }
+  const int way = state == 2 ? shaft.side : state;
+  const bool behind = way * (radps - shaft.radps) < 0;
+  return behind == (state != 2) ? state : 0;
+}
+
+bool World::State::check_motors(const StickingProblem& motion, const Rolling& now) {
+  double impulse[2], radps[2];
   for (int i = 0; i < 2; ++i) {
     const Wheel& w = robot.wheels[i];
-    impulse[i] = w.spin_inertia_kgm2 * (w.axis.dot(turning) + target_radps[i] - body.velocity()[6 + i]);
+    const double before_radps = body.velocity()[6 + i];
+    impulse[i] = w.spin_inertia_kgm2 * (w.axis.dot(motion.turning()) + now.wheel_radps[i] - before_radps);
+    radps[i] =
+        now.held.wheel_leg[i] < 0 ? now.wheel_radps[i] : before_radps + motion.wheel_radps(now.held.wheel_leg[i]);
   }
   for (int i = 0; i < contacts; ++i) {
     const int wheel = supports[contact[i].support].wheel;
     if (wheel >= 0) impulse[wheel] -= contact[i].lever.turn_m[0].dot(now.force[i]);
   }
-  const auto& motor = drivetrain.motor;
-  return std::abs(impulse[0]) <= motor[0].torque_limit_nm * step_s &&
-         std::abs(impulse[1]) <= motor[1].torque_limit_nm * step_s;
+  bool same = true;
+  for (int i = 0; i < 2; ++i) {
+    const int state = motor_state(i, impulse[i], radps[i], now);
+    same = same && state == grip.motor[i];
+    grip.motor[i] = state;
+  }
+  return same;
 }
 
 // Rows that the forces of the contacts are written into, in the order of the general step.
@@ -313,36 +287,45 @@ void World::State::write_impulses(const Rolling& now) {
   impulses.conservativeResize(rows);
 }
 
-bool World::State::step_rolling(double step_s, const std::array<double, 2>& target_radps, const Impulse& given,
-                                DofVector& u) {
-  Rolling now;
-  if (!start_rolling(step_s, target_radps, now)) return false;
-  StickingProblem motion;
-  if (!hold_or_slide(step_s, given, now, motion) || !motors_hold(step_s, target_radps, now, motion.turning())) {
-    grip = {};
-    return false;
-  }
+// The speeds that follow, and what the next step begins with.
+void World::State::finish_rolling(const StickingProblem& motion, const Rolling& now, DofVector& u) {
   u = body.velocity();
   u.head<3>() += motion.turning();
   u.segment<3>(3) += motion.moving();
-  u[6] = target_radps[0];
-  u[7] = target_radps[1];
-  bool slides = false;
-  for (int leg = 0; leg < now.held.legs; ++leg) {
+  for (int i = 0; i < 2; ++i) {
+    const int leg = now.held.wheel_leg[i];
+    u[6 + i] = now.wheel_radps[i] + (leg < 0 ? 0 : motion.wheel_radps(leg));
+  }
+  for (int leg = 0; leg < int(body.legs().size()); ++leg) {
     u[6 + body.legs()[std::size_t(leg)].fork] += motion.fork_radps(leg);
     u[6 + body.legs()[std::size_t(leg)].wheel] += motion.wheel_radps(leg);
   }
-  for (int i = 0; i < contacts; ++i) {
-    slides = slides || now.sticking[i].slides;
-  }
-  if (slides || grip.slipped) {
-    for (int i = 0; i < contacts; ++i) grip.slip[i] = slides ? now.touch[i].slip : Vector3d(Vector3d::Zero());
+  const bool slides = !none_slides(now);
+  for (int i = 0; i < contacts && (slides || grip.slipped); ++i) {
+    grip.slip[i] = slides ? now.touch[i].slip : Vector3d(Vector3d::Zero());
   }
   grip.slipped = slides;
   write_impulses(now);
   report = {};
   if (slides || !grip.all_hold()) report.outcome = SolveOutcome::newton;
-  return true;
+}
+
+bool World::State::step_rolling(double step_s, const std::array<double, 2>& target_radps, const Impulse& given,
+                                DofVector& u) {
+  Rolling now;
+  StickingProblem motion;
+  if (grip.contacts != contacts) grip = {}, grip.contacts = contacts;
+  start_shafts(step_s, target_radps, now);
+  for (int round = 0; round < kRounds; ++round) {
+    const bool free = grip.motor[0] != 0 || grip.motor[1] != 0;
+    const bool eccentric = robot.wheels[0].eccentricity_m > 0 || robot.wheels[1].eccentricity_m > 0;
+    if ((free && eccentric) || !start_rolling(step_s, now) || !hold_or_slide(step_s, given, now, motion)) break;
+    if (!check_motors(motion, now)) continue;
+    finish_rolling(motion, now, u);
+    return true;
+  }
+  grip = {};
+  return false;
 }
 
 }  // namespace umbsim

@@ -31,6 +31,7 @@ class StickingProblem {
     leg_[leg].right[0] -= give * speed;
   }
   void turn_fork(int leg, double impulse) { leg_[leg].right[0] += impulse; }
+  void turn_wheel(int leg, double impulse) { leg_[leg].right[1] += impulse; }
 
   /// False if the problem is not positive definite.
   bool solve();
@@ -61,7 +62,7 @@ class StickingProblem {
 
   double K_[6][6];  // angular, then linear; the lower half where it is symmetric
   double right_[6];
-  Leg leg_[4];
+  Leg leg_[6];
   int legs_;
   bool symmetric_;
 };

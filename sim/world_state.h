@@ -58,6 +58,7 @@ struct Grip {
   bool open[8]{};
   int patch[8]{};   // -1, 1: at its limit
   int swivel[4]{};  // the same of each leg
+  int motor[2]{};   // the same, at its torque limit; 2: in the play of its gear
   bool slipped = false;
   std::array<Eigen::Vector3d, 8> slip = all_zero();
 
@@ -70,13 +71,23 @@ struct Grip {
   bool all_hold() const {
     const auto holds = [](int side) { return side == 0; };
     return std::none_of(open, open + 8, [](bool o) { return o; }) && std::all_of(patch, patch + 8, holds) &&
-           std::all_of(swivel, swivel + 4, holds);
+           std::all_of(swivel, swivel + 4, holds) && std::all_of(motor, motor + 2, holds);
   }
+};
+
+/// What a motor does to its wheel in a step. Where there is play, it pushes one way only, at that end of the play which
+/// would be reached first.
+struct Shaft {
+  int side = 0;      // of the play: 1 forwards, -1 backwards, 0 without play
+  double radps = 0;  // at which it holds the wheel
+  double limit = 0;  // of its impulse
 };
 
 /// A rolling step in the making.
 struct Rolling {
   HeldBody held;
+  Shaft shaft[2];
+  double wheel_radps[2];  // held speeds; of wheels that are not held, those before
   Sticking sticking[8];
   TurningPatch patch[8];
   TurningPatch swivel[4];     // of the legs' bearings
@@ -150,8 +161,12 @@ struct World::State {
   bool step_rolling(double step_s, const std::array<double, 2>& target_radps, const Impulse& given, DofVector& u);
   bool may_roll() const;
   bool find_certain_contacts(double step_s, const std::array<double, 2>& target_radps, bool kicked);
-  bool start_rolling(double step_s, const std::array<double, 2>& target_radps, Rolling& now);
-  void start_contact(const Contact& c, const std::array<double, 2>& target_radps, Sticking& now) const;
+  bool start_rolling(double step_s, Rolling& now);
+  void start_contact(const Contact& c, const Rolling& now, Sticking& sticking) const;
+  void start_shafts(double step_s, const std::array<double, 2>& target_radps, Rolling& now) const;
+  bool wheel_is_free(int wheel, const Rolling& now) const {
+    return grip.motor[wheel] != 0 || now.shaft[wheel].limit <= 0;
+  }
   bool shares_spring(const Contact& c) const;
   void set_springs(double step_s);
   void let_stick(double step_s, Rolling& now);
@@ -166,9 +181,10 @@ struct World::State {
   Laws check_sticking(Rolling& now);
   Laws check_bounded(const StickingProblem& motion, Rolling& now);
   bool stops_change(double step_s, const Rolling& now);
-  bool motors_hold(double step_s, const std::array<double, 2>& target_radps, const Rolling& now,
-                   const Eigen::Vector3d& turning) const;
+  bool check_motors(const StickingProblem& motion, const Rolling& now);
+  int motor_state(int wheel, double impulse, double radps, const Rolling& now) const;
   void write_impulses(const Rolling& now);
+  void finish_rolling(const StickingProblem& motion, const Rolling& now, DofVector& u);
   bool step_with_holding_motors(double step_s, const std::array<double, 2>& target_radps, bool found, DofVector& u);
   void step_with_motor_rows(double step_s, const std::array<double, 2>& target_radps, DofVector& u);
 
