@@ -31,10 +31,10 @@ void scatter_motors(Rig& rig, double sd) {
 std::vector<Push> timed(const std::vector<LegPush>& pushes, const Plan& plan) {
   std::vector<Push> result;
   for (const LegPush& p : pushes) {
-    const std::size_t segment = 2 * std::size_t(p.leg - 1);
-    if (segment >= plan.segments().size()) continue;
+    const auto segment = plan.leg_segment(p.leg);
+    if (!segment) continue;
     result.push_back(p.push);
-    result.back().time_s += plan.segments()[segment].start_s;
+    result.back().time_s += plan.segments()[*segment].start_s;
   }
   return result;
 }
@@ -96,8 +96,6 @@ WheelMoment wheels_of(const World& world) {
   return now;
 }
 
-constexpr int kLap = 8;  // segments: four legs, four turns
-
 DrivenRun drive_plan(const Scenario& scenario, const Rig& rig, const Plan& plan, const OdometryParameters& odometry,
                      const RunSpec& spec, const RunOutput& output) {
   const DriveGeometry believed{odometry.left_radius_m, odometry.right_radius_m, odometry.wheelbase_m};
@@ -123,7 +121,7 @@ DrivenRun drive_plan(const Scenario& scenario, const Rig& rig, const Plan& plan,
     const std::int64_t right = right_encoder.read(time_s, world.encoder_angle(1));
     reckoning.update(left, right);
     segment = plan.at(time_s, segment).segment;
-    laps.done(segment / kLap);
+    laps.done((plan.segments()[std::size_t(segment)].leg - 1) / legs_per_lap(scenario.course));
     track.fix_if_due(segment, world.pose(), reckoning);
     recorder.encoders(time_s, left, right, command);
     if (recorder.truth_is_due(period)) {

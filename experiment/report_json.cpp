@@ -30,9 +30,9 @@ Json report_json(const ExperimentResult& r) {
             {"description", r.scenario.description},
             {"version", build_info().version},
             {"seed", r.scenario.seed},
-            {"side_m", r.scenario.course.side_m},
             {"wheelbase_m", r.odometry.wheelbase_m},
             {"summary", summary_json(r)}};
+  if (r.scenario.course.shape == "square") json["side_m"] = r.scenario.course.side_m;
   json["summary"]["cost"].erase("wall_s");  // the page is the same bytes on every run
   json["runs"] = Json::array();
   json["bumps"] = Json::array();

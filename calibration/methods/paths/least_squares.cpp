@@ -1,9 +1,9 @@
-#include "calibration/methods/least_squares.h"
+#include "calibration/methods/paths/least_squares.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "calibration/methods/pieces.h"
+#include "calibration/methods/paths/pieces.h"
 
 namespace umbsim::calibration {
 namespace {
@@ -21,8 +21,8 @@ Fit fit_least_squares(const Runs& runs, const OdometryParameters& nominal) {
   const std::vector<Piece> all = pieces(runs, nominal, kParts);
   for (const Piece& p : all) {
     const Eigen::Vector2d row(-p.counted.left_m / nominal.wheelbase_m, p.counted.right_m / nominal.wheelbase_m);
-    normal += row * row.transpose();
-    right += row * p.tracked.theta_rad;
+    normal += p.run->weight * row * row.transpose();
+    right += p.run->weight * row * p.tracked.theta_rad;
   }
   Fit fit;
   fit.condition = condition_number(normal);
@@ -36,9 +36,9 @@ Fit fit_least_squares(const Runs& runs, const OdometryParameters& nominal) {
   double own = 0, product = 0, way = 0;
   for (const Piece& p : pieces(runs, shape, kParts)) {
     const Pose2& s = p.counted.pose;
-    own += s.x_m * s.x_m + s.y_m * s.y_m;
-    product += s.x_m * p.tracked.x_m + s.y_m * p.tracked.y_m;
-    way += std::pow((std::abs(p.counted.left_m) + std::abs(p.counted.right_m)) / 2, 2);
+    own += p.run->weight * (s.x_m * s.x_m + s.y_m * s.y_m);
+    product += p.run->weight * (s.x_m * p.tracked.x_m + s.y_m * p.tracked.y_m);
+    way += p.run->weight * std::pow((std::abs(p.counted.left_m) + std::abs(p.counted.right_m)) / 2, 2);
   }
   fit.scale_observed = own > kClosed * kClosed * way && product > 0;
   const double log_b = fit.scale_observed ? std::log(product / own) : -(std::log(over_b[0]) + std::log(over_b[1])) / 2;

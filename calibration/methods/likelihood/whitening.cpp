@@ -1,4 +1,4 @@
-#include "calibration/methods/whitening.h"
+#include "calibration/methods/likelihood/whitening.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

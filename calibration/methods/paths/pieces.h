@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "calibration/methods/fit.h"
-#include "calibration/methods/travel.h"
+#include "calibration/methods/paths/travel.h"
 
 namespace umbsim::calibration {
 

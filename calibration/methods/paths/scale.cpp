@@ -1,9 +1,9 @@
-#include "calibration/methods/scale.h"
+#include "calibration/methods/paths/scale.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "calibration/methods/pieces.h"
+#include "calibration/methods/paths/pieces.h"
 
 namespace umbsim::calibration {
 namespace {

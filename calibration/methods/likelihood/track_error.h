@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "calibration/methods/fit.h"
-#include "calibration/methods/travel.h"
+#include "calibration/methods/paths/travel.h"
 
 namespace umbsim::calibration {
 
 /// What a whole track is compared with: parameters of the robot, of its recording's tracker and of the run.
-constexpr int kRobotSize = 3;    ///< log left radius, log right radius, log wheelbase
+constexpr int kRobotSize = 4;    ///< log left radius, log right radius, log wheelbase, scrub
 constexpr int kTrackerSize = 4;  ///< heading offset rad, marker x m, marker y m, clock rate
 constexpr int kStartSize = 4;    ///< x m, y m, theta rad of the start in the tracker's frame, clock offset s
 

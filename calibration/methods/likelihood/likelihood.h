@@ -11,4 +11,8 @@ namespace umbsim::calibration {
 /// is the jackknife's over runs (one step of Newton each), the model's own where no run was repeated.
 Fit fit_likelihood(const Runs& runs, const OdometryParameters& nominal);
 
+/// The same with scrub (`over_floor` in odometry/dead_reckoning.h) beside radii and wheelbase: what takes from turns in
+/// place a share, and from arcs of radius R 2R/b times as much. Friction opposes turning, so that scrub is no less than 0.
+Fit fit_scrub(const Runs& runs, const OdometryParameters& nominal);
+
 }  // namespace umbsim::calibration

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "calibration/methods/track_error.h"
-#include "calibration/methods/whitening.h"
+#include "calibration/methods/likelihood/track_error.h"
+#include "calibration/methods/likelihood/whitening.h"
 
 namespace umbsim::calibration {
 
@@ -20,6 +20,7 @@ struct Model {
   TrackNoise noise;
   std::vector<std::unique_ptr<Whitening>> whitening;
   bool scale = true;
+  bool scrub = false;  ///< fitted, too; else none
 
   TrackError::Linearised at(std::size_t r) const {
     return runs[r].at(robot.data(), trackers[block[r]].data(), starts[r].data());
@@ -44,5 +45,6 @@ bool tracker_told(const Model& m, std::size_t tracker);
 /// Standard deviations of what is believed before the data, about zero.
 std::array<double, kTrackerSize> tracker_prior(const Model& m, std::size_t tracker);
 std::array<double, kStartSize> start_prior(const TrackError& run);
+double scrub_prior(const Model& m);
 
 }  // namespace umbsim::calibration

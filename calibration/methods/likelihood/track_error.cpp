@@ -1,4 +1,4 @@
-#include "calibration/methods/track_error.h"
+#include "calibration/methods/likelihood/track_error.h"
 
 #include <algorithm>
 
@@ -31,7 +31,9 @@ TrackError::Linearised TrackError::at(const double* robot, const double* tracker
     times_s.push_back(t.time_s + start[3] + tracker[3] * since_s.back());
   }
   std::sort(times_s.begin(), times_s.end());  // a trial step may let the clock run backwards
-  l.at = travel(*run_.run, scaled(nominal_, {robot[0], robot[1], robot[2]}), times_s);
+  OdometryParameters odometry = scaled(nominal_, {robot[0], robot[1], robot[2]});
+  odometry.scrub = robot[3];
+  l.at = travel(*run_.run, odometry, times_s);
   const Eigen::Index n = Eigen::Index(nodes_.size());
   l.error.resize(3 * n);
   l.by = Eigen::MatrixXd::Zero(3 * n, kRobotSize + kTrackerSize + kStartSize);
@@ -44,18 +46,21 @@ TrackError::Linearised TrackError::at(const double* robot, const double* tracker
     l.error.segment<3>(3 * k) << seen.x_m - marker.x_m, seen.y_m - marker.y_m, seen.theta_rad - marker.theta_rad;
     const Eigen::Vector2d lever = turned_left(place(marker) - place(t.pose));
     auto by = l.by.middleRows<3>(3 * k);
-    by.leftCols<3>() = -t.by_factor;
-    by.topLeftCorner<2, 3>() -= lever * t.by_factor.row(2);
-    by(2, 3) = -1;
+    Eigen::Matrix<double, 3, kRobotSize> robot_columns;
+    robot_columns << t.by_factor, t.by_scrub;
+    by.leftCols<kRobotSize>() = -robot_columns;
+    by.topLeftCorner<2, kRobotSize>() -= lever * robot_columns.row(2);
+    by(2, kRobotSize) = -1;
     const double cb = std::cos(t.pose.theta_rad), sb = std::sin(t.pose.theta_rad);
-    by.block<2, 2>(0, 4) << -cb, sb, -sb, -cb;
+    by.block<2, 2>(0, kRobotSize + 1) << -cb, sb, -sb, -cb;
     Eigen::Vector3d by_time = -t.velocity;
     by_time.head<2>() -= lever * t.velocity[2];
-    by.col(6) = by_time * since_s[std::size_t(k)];
-    by.block<2, 2>(0, 7) << -c, -s, s, -c;
-    by.block<2, 1>(0, 9) = -turned_left(place(seen));
-    by(2, 9) = -1;
-    by.col(10) = by_time;
+    by.col(kRobotSize + 3) = by_time * since_s[std::size_t(k)];
+    constexpr int kStart = kRobotSize + kTrackerSize;
+    by.block<2, 2>(0, kStart) << -c, -s, s, -c;
+    by.block<2, 1>(0, kStart + 2) = -turned_left(place(seen));
+    by(2, kStart + 2) = -1;
+    by.col(kStart + 3) = by_time;
   }
   return l;
 }

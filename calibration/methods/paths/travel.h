@@ -15,6 +15,7 @@ struct Travel {
   Pose2 pose;
   /// d(x, y, theta) by (log left radius, log right radius, log wheelbase).
   Eigen::Matrix3d by_factor = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d by_scrub = Eigen::Vector3d::Zero();  ///< the same by `OdometryParameters::scrub`
   /// Covariance of (x, y, theta) for k = 1 m per sqrt(m) of the left wheel, and of the right one.
   Eigen::Matrix3d left_noise = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d right_noise = Eigen::Matrix3d::Zero();

@@ -1,4 +1,4 @@
-#include "calibration/methods/travel.h"
+#include "calibration/methods/paths/travel.h"
 
 #include <cmath>
 
@@ -12,8 +12,20 @@ double sinc_slope(double x) { return std::abs(x) < 1e-4 ? -x / 3 : (std::cos(x) 
 
 Eigen::Matrix3d outer(const Eigen::Vector3d& v) { return v * v.transpose(); }
 
+// What a scrub of one would take of both ways.
+RolledWays taken_by_scrub(const OdometryParameters& o, const RolledWays& counted) {
+  OdometryParameters one = o;
+  one.scrub = 1;
+  const RolledWays left = over_floor(one, counted);
+  return {left.left_m - counted.left_m, left.right_m - counted.right_m};
+}
+
 // Goes on from `t` over an arc of both wheels.
-void roll(Travel& t, double left_m, double right_m, double wheelbase_m) {
+void roll(Travel& t, const RolledWays& counted, const OdometryParameters& odometry) {
+  const RolledWays scrub = taken_by_scrub(odometry, counted);
+  const double left_m = counted.left_m + odometry.scrub * scrub.left_m;
+  const double right_m = counted.right_m + odometry.scrub * scrub.right_m;
+  const double wheelbase_m = odometry.wheelbase_m;
   const double ds = (left_m + right_m) / 2, turn = (right_m - left_m) / wheelbase_m;
   const double chord = ds * sinc(turn / 2), middle = t.pose.theta_rad + turn / 2;
   const double c = std::cos(middle), s = std::sin(middle);
@@ -28,6 +40,7 @@ void roll(Travel& t, double left_m, double right_m, double wheelbase_m) {
   t.by_factor.col(0) += by_left * left_m;
   t.by_factor.col(1) += by_right * right_m;
   t.by_factor.col(2) -= by_turn * turn;
+  t.by_scrub = F * t.by_scrub + by_left * scrub.left_m + by_right * scrub.right_m;
   t.left_noise = F * t.left_noise * F.transpose() + outer(by_left) * std::abs(left_m);
   t.right_noise = F * t.right_noise * F.transpose() + outer(by_right) * std::abs(right_m);
   t.left_m += left_m;
@@ -55,13 +68,13 @@ std::vector<Travel> travel(const RecordedRun& run, const OdometryParameters& odo
   for (const double time_s : times_s) {
     const EncoderClock::Moment m = clock.at(time_s);
     for (; i < m.before; ++i) {
-      roll(at, kl * double(s[i + 1].left_ticks - s[i].left_ticks), kr * double(s[i + 1].right_ticks - s[i].right_ticks),
-           odometry.wheelbase_m);
+      roll(at, {kl * double(s[i + 1].left_ticks - s[i].left_ticks), kr * double(s[i + 1].right_ticks - s[i].right_ticks)},
+           odometry);
     }
     const double left_m = kl * double(s[i + 1].left_ticks - s[i].left_ticks);
     const double right_m = kr * double(s[i + 1].right_ticks - s[i].right_ticks);
     Travel part = at;
-    if (m.share > 0) roll(part, m.share * left_m, m.share * right_m, odometry.wheelbase_m);
+    if (m.share > 0) roll(part, {m.share * left_m, m.share * right_m}, odometry);
     const double dt = s[i + 1].time_s - s[i].time_s;
     const double v = (left_m + right_m) / 2 / dt;
     part.velocity = {v * std::cos(part.pose.theta_rad), v * std::sin(part.pose.theta_rad),
@@ -79,6 +92,7 @@ Travel between(const Travel& a, const Travel& b) {
   Travel t;
   t.pose = inverse(a.pose) * b.pose;
   t.by_factor = R * (b.by_factor - F * a.by_factor);
+  t.by_scrub = R * (b.by_scrub - F * a.by_scrub);
   t.left_noise = R * (b.left_noise - F * a.left_noise * F.transpose()) * R.transpose();
   t.right_noise = R * (b.right_noise - F * a.right_noise * F.transpose()) * R.transpose();
   t.left_m = b.left_m - a.left_m;

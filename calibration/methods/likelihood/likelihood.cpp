@@ -1,16 +1,19 @@
-#include "calibration/methods/likelihood.h"
+#include "calibration/methods/likelihood/likelihood.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "calibration/methods/jackknife.h"
-#include "calibration/methods/likelihood_model.h"
-#include "calibration/methods/scale.h"
+#include "calibration/methods/likelihood/likelihood_model.h"
+#include "calibration/methods/likelihood/scrub.h"
+#include "calibration/methods/paths/scale.h"
 
 namespace umbsim::calibration {
 namespace {
 
 constexpr int kRounds = 3;  // parameters and noise in turn
+constexpr double kManyDegrees = 1e6;  // of freedom, of a noise model
 
 // Normal equations of every run in the common unknowns, its start eliminated.
 struct Reduced {
@@ -47,6 +50,8 @@ Reduced reduced(const Model& m) {
   }
   result.prior = Eigen::MatrixXd::Zero(n, n);
   result.prior_right = Eigen::VectorXd::Zero(n);
+  result.prior(3, 3) = 1 / (scrub_prior(m) * scrub_prior(m));
+  result.prior_right[3] = -m.robot[3] * result.prior(3, 3);
   for (std::size_t t = 0; t < m.trackers.size(); ++t) {
     const auto sd = tracker_prior(m, t);
     for (int i = 0; i < kTrackerSize; ++i) {
@@ -59,43 +64,71 @@ Reduced reduced(const Model& m) {
   return result;
 }
 
-void sum(const Reduced& all, std::size_t but, Eigen::MatrixXd& normal, Eigen::VectorXd& right) {
+// Over the runs with these weights.
+void sum(const Reduced& all, const std::vector<double>& weights, Eigen::MatrixXd& normal, Eigen::VectorXd& right) {
   normal = all.prior;
   right = all.prior_right;
   for (std::size_t r = 0; r < all.normal.size(); ++r) {
-    if (r == but) continue;
-    normal += all.normal[r];
-    right += all.right[r];
+    normal += weights[r] * all.normal[r];
+    right += weights[r] * all.right[r];
   }
 }
 
-void intervals(Fit& fit, const Runs& runs, const Reduced& all) {
-  constexpr std::size_t kNone = std::size_t(-1);
+std::vector<double> weights_of(const Runs& runs) {
+  std::vector<double> weights;
+  for (const TrainingRun& r : runs) weights.push_back(r.weight);
+  return weights;
+}
+
+// The run's own weight goes to those of its condition.
+std::vector<double> weights_without(const Runs& runs, std::size_t left_out) {
+  std::vector<double> weights = weights_of(without_run(runs, left_out));
+  weights.insert(weights.begin() + std::ptrdiff_t(left_out), 0);
+  return weights;
+}
+
+bool driven_again(const Runs& runs, std::size_t run) {
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (i != run && runs[i].condition == runs[run].condition) return true;
+  }
+  return false;
+}
+
+// Intervals of the fit; what they say of scrub, where it is fitted.
+ScrubFit intervals(Fit& fit, const Runs& runs, const Reduced& all) {
   Eigen::MatrixXd normal;
   Eigen::VectorXd right;
-  sum(all, kNone, normal, right);
+  sum(all, weights_of(runs), normal, right);
   const ScaleCheck whole = solve_with_scale(normal, right, fit.scale_observed);
   fit.condition = whole.condition;
+  const double variance = whole.covariance(3, 3);
+  ScrubFit scrub{fit.scrub ? fit.scrub->value : 0, variance, whole.covariance.block<3, 1>(0, 3) / variance, {}};
   std::vector<std::optional<LogFactors>> left_out;
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    sum(all, r, normal, right);
-    left_out.push_back(fit.factors + solve_with_scale(normal, right, fit.scale_observed).step.head<3>());
+    if (!driven_again(runs, r)) {
+      left_out.emplace_back();
+      scrub.left_out.push_back(scrub.value);
+      continue;
+    }
+    sum(all, weights_without(runs, r), normal, right);
+    const Eigen::VectorXd step = solve_with_scale(normal, right, fit.scale_observed).step;
+    left_out.push_back(fit.factors + step.head<3>());
+    scrub.left_out.push_back(scrub.value + step[3]);
   }
   const std::size_t said = fit.warnings.size();
   set_interval(fit, runs, left_out);
-  if (fit.covariance) return;
+  if (!fit.covariance.empty()) return scrub;
   fit.warnings.resize(said);
   fit.warnings.push_back(
       "a condition was driven once only: the interval is the noise model's, not that of repeated runs");
-  fit.covariance = whole.covariance.topLeftCorner<3, 3>();
-  fit.degrees_of_freedom = 1e6;
+  fit.covariance = {{whole.covariance.topLeftCorner<3, 3>(), kManyDegrees}};
+  return scrub;
 }
 
-}  // namespace
-
-Fit fit_likelihood(const Runs& runs, const OdometryParameters& nominal) {
+Fit fit_model(const Runs& runs, const OdometryParameters& nominal, bool scrub) {
   if (runs.empty()) throw NotApplicable("there is no run");
   Model m = prepared(runs, nominal);
+  m.scrub = scrub;
   Reduced all;
   for (int round = 0; round < kRounds; ++round) {
     set_whitening(m);
@@ -103,7 +136,7 @@ Fit fit_likelihood(const Runs& runs, const OdometryParameters& nominal) {
       all = reduced(m);
       Eigen::MatrixXd normal;
       Eigen::VectorXd right;
-      sum(all, std::size_t(-1), normal, right);
+      sum(all, weights_of(runs), normal, right);
       const ScaleCheck check = solve_with_scale(normal, right, true);
       if (!check.solved) throw NotApplicable(check.why);
       m.scale = check.observed;
@@ -113,6 +146,7 @@ Fit fit_likelihood(const Runs& runs, const OdometryParameters& nominal) {
   }
   Fit fit;
   fit.factors = {m.robot[0], m.robot[1], m.robot[2]};
+  if (scrub) fit.scrub = Estimate{m.robot[3], m.robot[3], m.robot[3]};
   if (fit.factors.norm() > 2) throw NotApplicable("the fit runs away: the paths do not tell the parameters");
   fit.scale_observed = m.scale;
   const double nan = std::nan("");
@@ -129,8 +163,19 @@ Fit fit_likelihood(const Runs& runs, const OdometryParameters& nominal) {
     tracker.clock_offset_s /= n;
     fit.trackers.push_back(tracker);
   }
-  intervals(fit, runs, reduced(m));
+  const ScrubFit said = intervals(fit, runs, reduced(m));
+  if (scrub) believe(said, runs, fit);
   return fit;
+}
+
+}  // namespace
+
+Fit fit_likelihood(const Runs& runs, const OdometryParameters& nominal) { return fit_model(runs, nominal, false); }
+
+Fit fit_scrub(const Runs& runs, const OdometryParameters& nominal) {
+  const bool tracked = std::any_of(runs.begin(), runs.end(), [](const TrainingRun& r) { return r.tracked(); });
+  if (!tracked) throw NotApplicable("needs tracks: end points do not tell scrub from the wheelbase");
+  return fit_model(runs, nominal, true);
 }
 
 }  // namespace umbsim::calibration

@@ -1,4 +1,4 @@
-#include "calibration/methods/kelly.h"
+#include "calibration/methods/paths/kelly.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "calibration/methods/pieces.h"
-#include "calibration/methods/scale.h"
+#include "calibration/methods/paths/pieces.h"
+#include "calibration/methods/paths/scale.h"
 
 namespace umbsim::calibration {
 namespace {
@@ -39,6 +39,7 @@ struct Row {
   Eigen::Matrix<double, 3, 4> by;
   Eigen::Matrix3d left, right, tracker;
   std::size_t recording;
+  double weight;
 };
 
 Row row_of(const Piece& p, const State& state) {
@@ -58,6 +59,7 @@ Row row_of(const Piece& p, const State& state) {
   const Eigen::Matrix3d one = tracker_noise(*p.run->recording) / 2;
   row.tracker = one + swing * one * swing.transpose();
   row.recording = p.run->recording_index;
+  row.weight = p.run->weight;
   return row;
 }
 
@@ -69,15 +71,17 @@ Eigen::Matrix3d weight(const Row& row, const State& s) {
 Eigen::Matrix2d score_noise(const std::vector<Row>& rows, double fitted, State& s) {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   Eigen::Vector2d target = Eigen::Vector2d::Zero();
-  const double n = 3 * double(rows.size());
+  double n = 0;
+  for (const Row& row : rows) n += 3 * row.weight;
   const double lost = n > fitted ? n / (n - fitted) : 1;  // to the parameters
   for (const Row& row : rows) {
     const Eigen::Matrix3d W = weight(row, s), L = W * row.left * W, R = W * row.right * W;
-    information(0, 0) += (L * row.left).trace() / 2;
-    information(1, 1) += (R * row.right).trace() / 2;
-    information(0, 1) += (L * row.right).trace() / 2;
-    target[0] += (lost * row.error.dot(L * row.error) - (L * row.tracker).trace()) / 2;
-    target[1] += (lost * row.error.dot(R * row.error) - (R * row.tracker).trace()) / 2;
+    const double half = row.weight / 2;
+    information(0, 0) += half * (L * row.left).trace();
+    information(1, 1) += half * (R * row.right).trace();
+    information(0, 1) += half * (L * row.right).trace();
+    target[0] += half * (lost * row.error.dot(L * row.error) - (L * row.tracker).trace());
+    target[1] += half * (lost * row.error.dot(R * row.error) - (R * row.tracker).trace());
   }
   information(1, 0) = information(0, 1);
   Eigen::Vector2d k2 = information.ldlt().solve(target);
@@ -110,7 +114,7 @@ Normal normal_equations(const std::vector<Row>& rows, const State& s) {
     Eigen::MatrixXd by = Eigen::MatrixXd::Zero(3, n);
     by.leftCols<3>() = row.by.leftCols<3>();
     if (column.count(row.recording)) by.col(column[row.recording]) = row.by.col(3);
-    const Eigen::Matrix3d W = weight(row, s);
+    const Eigen::Matrix3d W = row.weight * weight(row, s);
     normal.matrix += by.transpose() * W * by;
     normal.right += by.transpose() * (W * row.error);
   }

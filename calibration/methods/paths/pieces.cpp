@@ -1,4 +1,4 @@
-#include "calibration/methods/pieces.h"
+#include "calibration/methods/paths/pieces.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

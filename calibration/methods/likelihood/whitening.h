@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "calibration/methods/travel.h"
+#include "calibration/methods/paths/travel.h"
 
 namespace umbsim::calibration {
 

@@ -1,9 +1,11 @@
-#include "calibration/methods/likelihood_model.h"
+#include "calibration/methods/likelihood/likelihood_model.h"
 
 #include <ceres/ceres.h>
 
 #include <algorithm>
 #include <map>
+
+#include "calibration/methods/likelihood/scrub.h"
 
 namespace umbsim::calibration {
 namespace {
@@ -12,7 +14,7 @@ constexpr std::size_t kNodes = 150;  // of a track
 // Of a tracker: rad, m, m, and a clock's rate, which on a steady circle no data tell from the mean radius.
 constexpr std::array<double, kTrackerSize> kTrackerPrior{0.3, 0.3, 0.3, 0.002};
 constexpr double kClockPrior_s = 0.3;
-constexpr double kNotFitted = 1e-9;  // prior of what end points cannot tell
+constexpr double kNotFitted = 1e-9;  // prior of what is not fitted, and of what end points cannot tell
 
 // Residuals of one run for Ceres.
 class RunCost : public ceres::CostFunction {
@@ -67,11 +69,26 @@ class ScalePrior : public ceres::SizedCostFunction<1, kRobotSize> {
     residuals[0] = (p[0][0] + p[0][1]) / 2 / kSd;
     if (jacobians && jacobians[0]) {
       jacobians[0][0] = jacobians[0][1] = 0.5 / kSd;
-      jacobians[0][2] = 0;
+      jacobians[0][2] = jacobians[0][3] = 0;
     }
     return true;
   }
   static constexpr double kSd = 1e-7;
+};
+
+class ScrubPrior : public ceres::SizedCostFunction<1, kRobotSize> {
+ public:
+  explicit ScrubPrior(double sd) : sd_(sd) {}
+  bool Evaluate(double const* const* p, double* residuals, double** jacobians) const override {
+    residuals[0] = p[0][3] / sd_;
+    if (!jacobians || !jacobians[0]) return true;
+    std::fill(jacobians[0], jacobians[0] + kRobotSize, 0.0);
+    jacobians[0][3] = 1 / sd_;
+    return true;
+  }
+
+ private:
+  double sd_;
 };
 
 }  // namespace
@@ -92,6 +109,8 @@ std::array<double, kStartSize> start_prior(const TrackError& run) {
   return {1e6, 1e6, 1e6, run.tracked() ? kClockPrior_s : kNotFitted};
 }
 
+double scrub_prior(const Model& m) { return m.scrub ? kUsualScrub : kNotFitted; }
+
 void solve(Model& m) {
   ceres::Problem::Options owning;
   ceres::Problem problem(owning);
@@ -103,6 +122,7 @@ void solve(Model& m) {
   for (std::size_t t = 0; t < m.trackers.size(); ++t)
     problem.AddResidualBlock(new Prior<kTrackerSize>(tracker_prior(m, t)), nullptr, m.trackers[t].data());
   if (!m.scale) problem.AddResidualBlock(new ScalePrior, nullptr, m.robot.data());
+  problem.AddResidualBlock(new ScrubPrior(scrub_prior(m)), nullptr, m.robot.data());
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;
   options.max_num_iterations = 50;

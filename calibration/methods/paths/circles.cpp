@@ -1,4 +1,4 @@
-#include "calibration/methods/circles.h"
+#include "calibration/methods/paths/circles.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <complex>
 
-#include "calibration/methods/pieces.h"
+#include "calibration/methods/paths/pieces.h"
 
 namespace umbsim::calibration {
 namespace {
@@ -114,34 +114,36 @@ Arc counted_arc(const TrainingRun& r, const OdometryParameters& nominal) {
 Fit fit_circles(const Runs& runs, const OdometryParameters& nominal) {
   Eigen::MatrixXd rows(0, 3);
   Eigen::VectorXd right(0);
-  const auto add = [&](double left, double rgt, double b, double y) {
+  const auto add = [&](double weight, double left, double rgt, double b, double y) {
     rows.conservativeResize(rows.rows() + 1, 3);
     right.conservativeResize(rows.rows());
     rows.row(rows.rows() - 1) << left, rgt, b;
-    right[rows.rows() - 1] = y;
+    rows.row(rows.rows() - 1) *= std::sqrt(weight);
+    right[rows.rows() - 1] = std::sqrt(weight) * y;
   };
   Fit fit;
   int lefts = 0, rights = 0;
   std::size_t used = 0;
   double worst_bend = 0;
   for (const TrainingRun& r : runs) {
-    if (r.shape() != "circle") continue;
+    const bool eight = r.shape() == "figure_eight" && r.tracked();  // its ends say nothing of either circle
+    if (r.shape() != "circle" && !eight) continue;
     ++used;
     for (const Arc& arc : r.tracked() ? tracked_arcs(r, nominal) : std::vector<Arc>{counted_arc(r, nominal)}) {
       (arc.turned_rad > 0 ? lefts : rights) += 1;
-      add(-arc.left_m, arc.right_m, -nominal.wheelbase_m * arc.turned_rad, 0);
+      add(r.weight, -arc.left_m, arc.right_m, -nominal.wheelbase_m * arc.turned_rad, 0);
       if (arc.radius_m == 0) continue;
-      add(arc.left_m / 2, arc.right_m / 2, 0,
+      add(r.weight, arc.left_m / 2, arc.right_m / 2, 0,
           arc.radius_m * std::abs(arc.turned_rad) * (arc.left_m + arc.right_m < 0 ? -1 : 1));
       fit.scale_observed = true;
       worst_bend = std::max(worst_bend, arc.bend);
     }
   }
   if (lefts + rights == 0)
-    throw NotApplicable("needs circles (path.shape: circle) of a radian or more; there is none here");
+    throw NotApplicable("needs circles (path.shape: circle or figure_eight) of a radian or more; there is none here");
   if (lefts == 0 || rights == 0)
     throw NotApplicable("needs circles of both directions: in one, unequal wheels and a wrong wheelbase look alike");
-  if (!fit.scale_observed) add(1, 1, 0, 2);  // the mean radius stays
+  if (!fit.scale_observed) add(1, 1, 1, 0, 2);  // the mean radius stays
   const Eigen::Matrix3d normal = rows.transpose() * rows;
   const Eigen::Vector3d x = normal.ldlt().solve(rows.transpose() * right);
   fit.factors = x.array().log();
