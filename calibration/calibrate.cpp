@@ -24,8 +24,9 @@ OdometryParameters corrected(const OdometryParameters& odometry, const ErrorEsti
 std::string calibration_yaml(const OdometryParameters& o, const std::string& comment) {
   return fmt::format(
       "# {}\n# Put this block into a scenario, or give it to the robot's controller.\n"
-      "odometry:\n  left_radius_m: {:.9f}\n  right_radius_m: {:.9f}\n  wheelbase_m: {:.9f}\n",
-      comment, o.left_radius_m, o.right_radius_m, o.wheelbase_m);
+      "odometry:\n  left_radius_m: {:.9f}\n  right_radius_m: {:.9f}\n  wheelbase_m: {:.9f}\n{}",
+      comment, o.left_radius_m, o.right_radius_m, o.wheelbase_m,
+      o.scrub == 0 ? "" : fmt::format("  scrub: {:.9f}\n", o.scrub));
 }
 
 }  // namespace umbsim

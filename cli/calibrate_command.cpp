@@ -7,12 +7,13 @@
 #include "calibration/calibrate.h"
 #include "calibration/compare/compare.h"
 #include "calibration/intake/intake.h"
-#include "calibration/methods/squares.h"
+#include "calibration/methods/squares/squares.h"
 #include "cli/calibration_json.h"
 #include "cli/calibration_table.h"
 #include "cli/commands.h"
 #include "cli/help.h"
 #include "cli/jobs.h"
+#include "cli/pages.h"
 #include "cli/tables.h"
 #include "core/error.h"
 #include "core/text_file.h"
@@ -33,6 +34,7 @@ struct CalibrateArguments {
   std::string out;
   std::string method = "all";
   bool force = false;
+  bool open = false;
   int jobs = 0;
 };
 
@@ -99,7 +101,19 @@ std::optional<CalibrationMethod> as_form(const std::string& method) {
 }
 
 Json odometry_json(const OdometryParameters& o) {
-  return {{"left_radius_m", o.left_radius_m}, {"right_radius_m", o.right_radius_m}, {"wheelbase_m", o.wheelbase_m}};
+  Json json{{"left_radius_m", o.left_radius_m}, {"right_radius_m", o.right_radius_m}, {"wheelbase_m", o.wheelbase_m}};
+  if (o.scrub > 0) json["scrub"] = o.scrub;
+  return json;
+}
+
+// For controllers that know radii and a wheelbase only: the method without scrub that predicts best.
+const calibration::MethodResult& without_scrub(const Comparison& c) {
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < c.results.size(); ++i) {
+    const calibration::MethodResult& r = c.results[i];
+    if (r.fit && r.odometry.scrub == 0 && r.held_out_mm < c.results[best].held_out_mm) best = i;
+  }
+  return c.results[best];
 }
 
 void calibrate(const CalibrateArguments& a) {
@@ -122,13 +136,28 @@ void calibrate(const CalibrateArguments& a) {
     json["calibration"]["applied"] = winner;
   }
   json["odometry"] = odometry_json(calibrated);
+  json["nominal"] = odometry_json(c.nominal);
+  if (calibrated.scrub > 0) {
+    const calibration::MethodResult& plain = without_scrub(c);
+    json["without_scrub"] = {{"method", plain.name}, {"odometry", odometry_json(plain.odometry)}};
+  }
   json["limits"] = limits;
   json["comparison"] = comparison_json(c, task);
+  json["squares"] = squares_json(c, task);
+  json["runs"] = residuals_json(c, task);
   out.write([&](const fs::path& into) {
-    const std::string comment =
-        fmt::format("Odometry calibrated on '{}' ({})", fmt::join(task.train_names, "', '"), winner);
+    std::string comment = fmt::format("Odometry calibrated on '{}' ({})", fmt::join(task.train_names, "', '"), winner);
+    if (calibrated.scrub > 0) {
+      const calibration::MethodResult& plain = without_scrub(c);
+      comment += fmt::format(
+          "\n# A controller that knows no scrub needs other numbers ({}):\n# left_radius_m {:.9f}, right_radius_m "
+          "{:.9f}, "
+          "wheelbase_m {:.9f}",
+          plain.name, plain.odometry.left_radius_m, plain.odometry.right_radius_m, plain.odometry.wheelbase_m);
+    }
     write_text_file(into / "calibration.yaml", calibration_yaml(calibrated, comment));
     write_text_file(into / "calibration.json", json.dump(2) + "\n");
+    write_page(into, PageKind::calibration, calibration_page(json, base, page_provenance_json(a.recordings.front(), 0)));
     write_text_file(into / "provenance.json", provenance_json(a.recordings.front(), 0).dump(2) + "\n");
   });
   for (std::size_t i = 0; i < task.train.size(); ++i)
@@ -141,10 +170,12 @@ void calibrate(const CalibrateArguments& a) {
   fmt::print("{}", comparison_table(c, task));
   for (const std::string& said : limits) fmt::print("{}", wrapped("Limit: " + said));
   fmt::print(
-      "{}Result in {}: calibration.yaml, calibration.json\n",
-      wrapped(fmt::format("Calibrated odometry ({}): left radius {:.6f} m, right radius {:.6f} m, wheelbase {:.6f} m",
-                          winner, calibrated.left_radius_m, calibrated.right_radius_m, calibrated.wheelbase_m)),
-      out.said());
+      "{}Result in {}: calibration.yaml, calibration.json; {}\n",
+      wrapped(fmt::format("Calibrated odometry ({}): left radius {:.6f} m, right radius {:.6f} m, wheelbase {:.6f} m{}",
+                          winner, calibrated.left_radius_m, calibrated.right_radius_m, calibrated.wheelbase_m,
+                          calibrated.scrub > 0 ? fmt::format(", scrub {:.5f}", calibrated.scrub) : "")),
+      out.said(), page_said(out.path()));
+  finish_page(out.path(), a.open);
 }
 
 }  // namespace
@@ -163,6 +194,7 @@ void add_calibrate_command(CLI::App& app) {
       ->check(known.description(""))
       ->capture_default_str();
   command->add_flag("--force", a->force, "Replace a finished result");
+  add_open_option(command, a->open);
   add_threads_option(*command, a->jobs);
   add_example(command, "umbsim calibrate results/umbmark\n  umbsim calibrate squares circles --test free");
   command->callback([a] { calibrate(*a); });

@@ -2,10 +2,14 @@
 
 #include <cmath>
 
+#include "calibration/compare/residuals.h"
+
 namespace umbsim {
 namespace {
 
 using namespace calibration;
+
+constexpr std::size_t kMoments = 100;  // of a run
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
@@ -16,7 +20,9 @@ Json estimate(const Estimate& e) {
 }
 
 Json odometry(const OdometryParameters& o) {
-  return {{"left_radius_m", o.left_radius_m}, {"right_radius_m", o.right_radius_m}, {"wheelbase_m", o.wheelbase_m}};
+  Json json{{"left_radius_m", o.left_radius_m}, {"right_radius_m", o.right_radius_m}, {"wheelbase_m", o.wheelbase_m}};
+  if (o.scrub > 0) json["scrub"] = o.scrub;
+  return json;
 }
 
 Json mean_errors(const std::vector<MeanError>& errors, const std::vector<std::string>& names) {
@@ -44,7 +50,12 @@ Json fit_json(const Fit& fit, const OdometryParameters& nominal) {
     json["wheelbase_m"] = estimate(f.wheelbase_m);
   }
   json["condition"] = number(fit.condition);
-  if (fit.covariance) json["degrees_of_freedom"] = fit.degrees_of_freedom;
+  if (!fit.covariance.empty()) {
+    json["degrees_of_freedom"] = {{"e_d", spread(fit.covariance, kEd).degrees_of_freedom},
+                                  {"e_b", spread(fit.covariance, kEb).degrees_of_freedom}};
+  }
+  if (fit.scrub) json["scrub"] = estimate(*fit.scrub);
+  if (fit.own_bias) json["own_bias"] = {{"e_d", kEd.dot(*fit.own_bias)}, {"e_b", kEb.dot(*fit.own_bias)}};
   if (fit.noise) {
     json["left_m_per_sqrt_m"] = estimate(fit.noise->left_m_per_sqrt_m);
     json["right_m_per_sqrt_m"] = estimate(fit.noise->right_m_per_sqrt_m);
@@ -69,6 +80,7 @@ Json method_json(const MethodResult& r, const Comparison& c, const Task& task) {
   if (r.e_max_m) json["e_max_syst_m"] = *r.e_max_m;
   json["held_out_mm"] = r.held_out_mm;
   json["held_out_answers"] = r.held_out_answers;
+  json["held_out_folds_mm"] = r.fold_mm;
   json["train"] = mean_errors(r.train, task.train_names);
   if (!task.test.empty()) json["test"] = mean_errors(r.test, task.test_names);
   json["warnings"] = r.fit ? Json(r.fit->warnings) : Json::array();
@@ -91,7 +103,61 @@ Json parts_json(const Parts& parts) {
   return json;
 }
 
+double rounded(double value) { return std::round(value * 1e6) / 1e6; }
+
+Json columns(const std::vector<Pose2>& poses) {
+  Json x = Json::array(), y = Json::array(), theta = Json::array();
+  for (const Pose2& p : poses) {
+    x.push_back(rounded(p.x_m));
+    y.push_back(rounded(p.y_m));
+    theta.push_back(rounded(p.theta_rad));
+  }
+  return {{"x_m", x}, {"y_m", y}, {"theta_rad", theta}};
+}
+
+Json return_errors(const Umbmark& u) {
+  Json json{{"e_max_syst_m", u.e_max_syst_m}};
+  for (const auto& [cluster, direction] : {std::pair{&u.cw, "cw"}, std::pair{&u.ccw, "ccw"}}) {
+    json[direction] = cluster_json(*cluster);
+    for (const ReturnError& e : cluster->errors)
+      json[direction]["errors"].push_back({{"run", e.run}, {"x_m", e.x_m}, {"y_m", e.y_m}, {"theta_rad", e.theta_rad}});
+  }
+  return json;
+}
+
 }  // namespace
+
+Json residuals_json(const Comparison& c, const Task& task) {
+  Json json = Json::array();
+  for (const RunResiduals& r : run_residuals(task, c, kMoments)) {
+    Json times = Json::array(), finals = Json::object();
+    for (const double t : r.time_s) times.push_back(rounded(t));
+    for (std::size_t i = 0; i < c.results.size(); ++i) {
+      if (c.results[i].why_not.empty()) finals[c.results[i].name] = r.final_mm[i];
+    }
+    json.push_back({{"recording", r.recording},
+                    {"run", r.run},
+                    {"direction", r.direction},
+                    {"test", r.test},
+                    {"final_mm", finals},
+                    {"time_s", times},
+                    {"tracked", columns(r.tracked)},
+                    {"before", columns(r.before)},
+                    {"after", columns(r.after)}});
+  }
+  return json;
+}
+
+Json squares_json(const Comparison& c, const Task& task) {
+  Json json = Json::array();
+  for (const SquaresBeforeAfter& s : squares_before_after(task, c)) {
+    json.push_back({{"recording", s.recording},
+                    {"side_m", s.side_m},
+                    {"before", return_errors(s.before)},
+                    {"after", return_errors(s.after)}});
+  }
+  return json;
+}
 
 Json comparison_json(const Comparison& c, const Task& task) {
   Json methods = Json::array();

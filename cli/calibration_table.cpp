@@ -50,6 +50,13 @@ std::string noise(const Comparison& c) {
                               1000 * right.low, 1000 * right.high),
                   4);
     }
+    if (r.fit->scrub) {
+      text +=
+          wrapped(fmt::format("  scrub: tyres creep by {:.5f} [{:.5f}, {:.5f}] of their way against turning: so much "
+                              "a turn in place is small, an arc of radius R by 2R/b times as much",
+                              r.fit->scrub->value, r.fit->scrub->low, r.fit->scrub->high),
+                  4);
+    }
     for (const TrackerFit& t : r.fit->trackers) {
       if (r.name != "likelihood") continue;
       text += wrapped(fmt::format("  likelihood: tracker of {} turned {:+.2f} deg, marker {:+.1f} mm ahead, {:+.1f} mm "

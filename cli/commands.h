@@ -10,6 +10,7 @@ void add_sweep_command(CLI::App& app);
 void add_calibrate_command(CLI::App& app);
 void add_import_command(CLI::App& app);
 void add_export_command(CLI::App& app);
+void add_report_command(CLI::App& app);
 void add_list_command(CLI::App& app);
 void add_robot_command(CLI::App& app);
 void add_effects_command(CLI::App& app);

@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/help.h"
+#include "cli/pages.h"
 #include "cli/shipped.h"
 #include "cli/tables.h"
 #include "core/text_file.h"
@@ -20,6 +21,7 @@ struct ExplainArguments {
   std::string out;
   std::vector<std::string> settings;
   bool force = false;
+  bool open = false;
   int jobs = 0;
 };
 
@@ -31,13 +33,17 @@ void explain_scenario(const ExplainArguments& a) {
   const Explanation explanation = explain(scenario, a.jobs);
   if (out) {
     out->write([&](const std::filesystem::path& into) {
-      write_text_file(into / "explain.json", explanation_json(scenario, explanation).dump(2) + "\n");
+      const Json json = explanation_json(scenario, explanation);
+      write_text_file(into / "explain.json", json.dump(2) + "\n");
+      write_page(into, PageKind::explanation, explanation_page(json, page_provenance_json(scenario.file, scenario.seed)));
       write_scenario(scenario, into / "scenario.resolved.yaml");
       write_text_file(into / "provenance.json", provenance_json(scenario.file, scenario.seed).dump(2) + "\n");
     });
   }
   fmt::print("{}", explanation_table(scenario, explanation));
-  if (out) fmt::print("Result in {}: explain.json\n", out->path());
+  if (!out) return;
+  fmt::print("Result in {}: explain.json; {}\n", out->path(), page_said(out->path()));
+  finish_page(out->path(), a.open);
 }
 
 }  // namespace
@@ -51,6 +57,7 @@ void add_explain_command(CLI::App& app) {
   command->add_option("--set", a->settings, "Replace a value of the scenario: --set course.side_m=2 (repeatable)")
       ->allow_extra_args(false);
   command->add_flag("--force", a->force, "Replace a finished result");
+  add_open_option(command, a->open);
   command->add_option("-j,--jobs", a->jobs, "Runs driven at the same time; 0: one per core")
       ->check(CLI::Range(0, 1024));
   add_example(command, "umbsim explain unidirectional_trap");

@@ -13,12 +13,14 @@
 #include "cli/gap_simulator.h"
 #include "cli/help.h"
 #include "cli/jobs.h"
+#include "cli/pages.h"
 #include "core/text_file.h"
 #include "core/wrapped_text.h"
 #include "experiment/build_info.h"
 #include "experiment/replay.h"
 #include "experiment/result_folder.h"
 #include "experiment/result_json.h"
+#include "experiment/scene_json.h"
 #include "gap/answer/twin.h"
 #include "gap/diagnose.h"
 #include "gap/output/diagnosis_json.h"
@@ -27,7 +29,6 @@
 #include "gap/output/verdict.h"
 #include "gap/plan/ties.h"
 #include "gap/replay/remembered.h"
-#include "report/report.h"
 
 namespace umbsim {
 namespace {
@@ -40,6 +41,7 @@ struct DiagnoseArguments {
   std::vector<std::string> excluded;
   std::string out;
   bool force = false;
+  bool open = false;
   bool no_cache = false;
   int jobs = 0;
 };
@@ -85,12 +87,19 @@ std::vector<gap::NextExperiment> next_runs(const Scenario& scenario, const Recor
 }
 
 // The page is the same bytes on every run: without the cost.
-std::string page(const gap::Model& model, const gap::Diagnosis& d, const Json& json) {
+Json page(const gap::Model& model, const gap::Diagnosis& d, const Json& json, const Scenario& scenario,
+          const std::string& given) {
   Json data{{"title", "Gap diagnosis: " + model.recording().title}, {"version", build_info().version}};
   data["diagnosis"] = json;
   data["diagnosis"].erase("cost");
   data["runs"] = gap::tracks_json(model, d);
-  return render_gap_report(data);
+  data["side_m"] = model.recording().path.side_m;
+  data["robot"] =
+      robot_scene_json(scenario_urdf_text(scenario), scenario_urdf(scenario), load_scenario_robot(scenario));
+  data["robot"]["wheelbase_m"] = model.recording().robot.wheelbase_m;
+  data["floor"] = floor_scene_json(rig_for(scenario, load_scenario_robot(scenario), {}).floor);
+  data["provenance"] = page_provenance_json(given, 0);
+  return data;
 }
 
 void run_diagnose(const DiagnoseArguments& a) {
@@ -123,14 +132,16 @@ void run_diagnose(const DiagnoseArguments& a) {
                   {"simulated_s", d.simulated_s}};
   out.write([&](const fs::path& into) {
     write_text_file(into / "diagnosis.json", json.dump(2) + "\n");
-    write_text_file(into / "report.html", page(model, d, json));
-    write_scenario(twin(recordings.scenario(), recordings.replay(), d), into / "twin.yaml");
-    write_text_file(into / "provenance.json",
-                    provenance_json(fmt::format("{}", fmt::join(a.recordings, " ")), 0).dump(2) + "\n");
+    const std::string given = fmt::format("{}", fmt::join(a.recordings, " "));
+    const Scenario found = twin(recordings.scenario(), recordings.replay(), d);
+    write_page(into, PageKind::gap, page(model, d, json, found, given));
+    write_scenario(found, into / "twin.yaml");
+    write_text_file(into / "provenance.json", provenance_json(given, 0).dump(2) + "\n");
   });
-  fmt::print("{}{}Result in {}: diagnosis.json, twin.yaml; open {}/report.html\n",
+  fmt::print("{}{}Result in {}: diagnosis.json, twin.yaml; {}\n",
              wrapped(fmt::format("{}: {}", recordings.name(), campaign.all.title)), gap::diagnosis_text(d, next),
-             out.said(), out.path());
+             out.said(), page_said(out.path()));
+  finish_page(out.path(), a.open);
 }
 
 }  // namespace
@@ -153,6 +164,7 @@ void add_gap_command(CLI::App& app) {
       ->allow_extra_args(false);
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<recordings>-diagnosis");
   command->add_flag("--force", a->force, "Replace a finished result");
+  add_open_option(command, a->open);
   command->add_flag("--no-cache", a->no_cache, "Keep no simulated tracks in the user's cache folder, and use none");
   add_threads_option(*command, a->jobs);
   add_example(command, "umbsim gap diagnose results/umbmark --exclude bump");

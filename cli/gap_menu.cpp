@@ -23,6 +23,16 @@ RobotModel believed(const Scenario& scenario, const RecordedRobot& robot) {
   return apply_effects({scale, base}, std::move(rig)).robot;
 }
 
+// The menu is of squares, whatever was driven before.
+RecordedPath as_square(RecordedPath path, const Course& course) {
+  if (path.shape == "square") return path;
+  path.shape = "square";
+  path.side_m = course.side_m;
+  path.radius_m.reset();
+  path.waypoints.clear();
+  return path;
+}
+
 }  // namespace
 
 Scenario nominal_scenario(Scenario s) {
@@ -41,7 +51,7 @@ Scenario nominal_scenario(Scenario s) {
 std::vector<gap::MenuRun> menu_for(const Scenario& scenario, const RecordedPath& path) {
   const double mass_kg = load_scenario_robot(scenario).base.mass_kg;
   const double payload_kg = std::max(1.0, std::round(kPayloadShare * mass_kg / kPayloadGrain_kg)) * kPayloadGrain_kg;
-  return gap::plan_menu(path, scenario.course.dwell_s, payload_kg);
+  return gap::plan_menu(as_square(path, scenario.course), scenario.course.dwell_s, payload_kg);
 }
 
 Recording with_menu(Recording recording, const Scenario& scenario, const std::vector<gap::MenuRun>& menu) {
@@ -53,6 +63,7 @@ Recording with_menu(Recording recording, const Scenario& scenario, const std::ve
     Recording planned = recording;
     planned.runs = {m.run};
     planned.truth_position_sd_m = planned.truth_heading_sd_rad = 0;
+    planned.path = as_square(planned.path, s.course);
     planned.path.side_m = s.course.side_m;
     planned.path.turn = "in_place";
     planned.path.angular_speed_radps = m.angular_speed_radps;

@@ -11,6 +11,7 @@
 #include "cli/gap_simulator.h"
 #include "cli/help.h"
 #include "cli/jobs.h"
+#include "cli/pages.h"
 #include "cli/shipped.h"
 #include "core/text_file.h"
 #include "experiment/result_folder.h"
@@ -31,6 +32,7 @@ struct PlanArguments {
   std::string out;
   gap::PlanOptions options;
   bool force = false;
+  bool open = false;
   bool no_cache = false;
   bool matrix = false;
   int jobs = 0;
@@ -144,10 +146,14 @@ void plan(const PlanArguments& a) {
   const gap::Plan result = gap::plan(model, context.given, s.scatter.radius, options, say);
   stages.done();
   out.write([&](const fs::path& into) {
-    write_text_file(into / "plan.json", gap::plan_json(result, context, options, s.noise).dump(1) + "\n");
+    const Json json = gap::plan_json(result, context, options, s.noise);
+    write_text_file(into / "plan.json", json.dump(1) + "\n");
+    write_page(into, PageKind::plan, plan_page(json, s.name, page_provenance_json(a.subject, options.seed)));
     write_text_file(into / "provenance.json", provenance_json(a.subject, options.seed).dump(2) + "\n");
   });
-  fmt::print("{}Result in {}: plan.json\n", gap::plan_text(result, context, options, a.matrix), out.said());
+  fmt::print("{}Result in {}: plan.json; {}\n", gap::plan_text(result, context, options, a.matrix), out.said(),
+             page_said(out.path()));
+  finish_page(out.path(), a.open);
 }
 
 }  // namespace
@@ -174,6 +180,7 @@ void add_gap_plan_command(CLI::App& group) {
   command->add_option("--seed", a->options.seed, "Of the sampled cases")->capture_default_str();
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<name>-plan");
   command->add_flag("--force", a->force, "Replace a finished result");
+  add_open_option(command, a->open);
   command->add_flag("--no-cache", a->no_cache, "Keep no simulated tracks in the user's cache folder, and use none");
   command->add_flag("--matrix", a->matrix, "Print the whole matrix of what would be named for what");
   add_threads_option(*command, a->jobs);

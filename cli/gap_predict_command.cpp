@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/help.h"
 #include "cli/jobs.h"
+#include "cli/pages.h"
 #include "cli/shipped.h"
 #include "core/text_file.h"
 #include "core/wrapped_text.h"
@@ -29,6 +30,7 @@ struct PredictArguments {
   std::string squares;
   std::string out;
   bool force = false;
+  bool open = false;
   int jobs = 0;
 };
 
@@ -95,24 +97,38 @@ Json error_json(const calibration::RunError& e) {
       {"final_mm", e.final_mm}, {"along_mm", e.along_mm}, {"raw_final_mm", e.raw_final_mm}, {"frame_deg", e.frame_deg}};
 }
 
-Json scores_json(const Predicted& p) {
+Json scores_json(const std::vector<std::string>& runs, const std::vector<Scores>& scores) {
   Json json = Json::object();
-  for (const Scores& s : p.scores) {
-    Json runs = Json::object();
-    for (std::size_t r = 0; r < s.runs.size(); ++r) runs[p.recording.runs[r].id] = error_json(s.runs[r]);
-    json[s.name] = {{"mean", error_json(s.mean())}, {"runs", runs}};
+  for (const Scores& s : scores) {
+    Json errors = Json::object();
+    for (std::size_t r = 0; r < s.runs.size(); ++r) errors[runs[r]] = error_json(s.runs[r]);
+    json[s.name] = {{"mean", error_json(s.mean())}, {"runs", errors}};
   }
   return json;
 }
 
-// Of one recording its predictions; of several those of each under its name.
+// Of all runs; of several recordings, where runs are named "recording/run", also of each.
 Json prediction_json(const std::vector<Predicted>& all) {
   Json json{{"format", "umbsim-prediction/1"}};
-  if (all.size() == 1) {
-    json["predictions"] = scores_json(all.front());
-    return json;
+  std::vector<std::string> runs;
+  std::vector<Scores> scores;
+  Json each = Json::object();
+  for (const Predicted& p : all) {
+    std::vector<std::string> own;
+    for (const RecordedRun& run : p.recording.runs) {
+      own.push_back(run.id);
+      runs.push_back(all.size() > 1 ? p.name + "/" + run.id : run.id);
+    }
+    if (scores.empty()) {
+      scores = p.scores;
+    } else {
+      for (std::size_t i = 0; i < scores.size(); ++i)
+        scores[i].runs.insert(scores[i].runs.end(), p.scores[i].runs.begin(), p.scores[i].runs.end());
+    }
+    each[p.name]["predictions"] = scores_json(own, p.scores);
   }
-  for (const Predicted& p : all) json["recordings"][p.name]["predictions"] = scores_json(p);
+  json["predictions"] = scores_json(runs, scores);
+  if (all.size() > 1) json["recordings"] = std::move(each);
   return json;
 }
 
@@ -147,8 +163,11 @@ void predict(const PredictArguments& a) {
   ResultFolder out(a.out, fmt::format("{}-prediction", fmt::join(names, "+")), a.force);
   for (Predicted& p : all) predict_runs(p, scenario, a.squares);
   out.write([&](const fs::path& into) {
-    write_text_file(into / "prediction.json", prediction_json(all).dump(2) + "\n");
+    const Json json = prediction_json(all);
     const std::string source = fmt::format("{}", fmt::join(a.recordings, " "));
+    const std::string name = fmt::format("{}", fmt::join(names, "+"));
+    write_text_file(into / "prediction.json", json.dump(2) + "\n");
+    write_page(into, PageKind::prediction, prediction_page(json, name, page_provenance_json(source, 0)));
     write_text_file(into / "provenance.json", provenance_json(source, 0).dump(2) + "\n");
   });
   std::vector<std::string> effects;
@@ -160,7 +179,8 @@ void predict(const PredictArguments& a) {
                table(p, "start and frame fitted", &calibration::RunError::final_mm),
                table(p, "recorded start as exact", &calibration::RunError::raw_final_mm));
   }
-  fmt::print("Result in {}: prediction.json\n", out.said());
+  fmt::print("Result in {}: prediction.json; {}\n", out.said(), page_said(out.path()));
+  finish_page(out.path(), a.open);
 }
 
 }  // namespace
@@ -177,6 +197,7 @@ void add_gap_predict_command(CLI::App& group) {
                       "UMBmark squares of the same robot: compare with odometry calibrated on them");
   command->add_option("-o,--out", a->out, "Folder for the result; default results/<recording>-prediction");
   command->add_flag("--force", a->force, "Replace a finished result");
+  add_open_option(command, a->open);
   add_threads_option(*command, a->jobs);
   add_example(command, "umbsim gap predict results/umbmark --scenario \\\n    results/umbmark-diagnosis/twin.yaml");
   command->callback([a] { predict(*a); });

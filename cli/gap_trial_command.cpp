@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/help.h"
+#include "cli/pages.h"
 #include "cli/shipped.h"
 #include "core/text_file.h"
 #include "core/wrapped_text.h"
@@ -76,7 +77,9 @@ void diagnose(const TrialArguments& a) {
 void write_score(const TrialScore& score, const fs::path& folder, const fs::path& answers) {
   const Confusion c = confusion(score.verdicts);
   write_folder(folder, true, [&](const fs::path& into) {
-    write_text_file(into / "summary.json", score_json(score).dump(1) + "\n");
+    const Json json = score_json(score);
+    write_text_file(into / "summary.json", json.dump(1) + "\n");
+    write_page(into, PageKind::score, score_page(json, "Trial " + score.trial, page_provenance_json(answers.string(), 0)));
     write_text_file(into / "summary.md", score_markdown(score));
     write_text_file(into / "table.txt", score_table(score));
     write_text_file(into / "confusion.csv", confusion_csv(c));
@@ -90,8 +93,8 @@ void score(const TrialArguments& a) {
   const fs::path answers = a.answers.empty() ? folder.answers() : fs::path(a.answers);
   const TrialScore result = score_trial(folder, answers);
   write_score(result, folder.score(), answers);
-  fmt::print("{}Result in {}: summary.json, summary.md, table.txt, confusion.csv, confusion.svg\n",
-             wrapped_lines(score_table(result), 6), folder.score().string());
+  fmt::print("{}Result in {}: summary.json, summary.md, table.txt, confusion.csv, confusion.svg; {}\n",
+             wrapped_lines(score_table(result), 6), folder.score().string(), page_said(folder.score().string()));
 }
 
 void whole_trial(TrialArguments a) {

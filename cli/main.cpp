@@ -29,6 +29,7 @@ constexpr void (*kCommands[])(CLI::App&) = {
     umbsim::add_import_command,
     umbsim::add_calibrate_command,
     umbsim::add_export_command,
+    umbsim::add_report_command,
     umbsim::add_list_command,
     umbsim::add_robot_command,
     umbsim::add_effects_command,

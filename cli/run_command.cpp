@@ -7,6 +7,7 @@
 #include "cli/exit.h"
 #include "cli/help.h"
 #include "cli/jobs.h"
+#include "cli/pages.h"
 #include "cli/shipped.h"
 #include "cli/tables.h"
 #include "core/text_file.h"
@@ -28,6 +29,7 @@ struct RunArguments {
   std::string junit;
   std::vector<std::string> settings;
   bool force = false;
+  bool open = false;
   int jobs = 0;
 };
 
@@ -52,12 +54,12 @@ void run(const RunArguments& a) {
   ExperimentResult result;
   out.write([&](const std::filesystem::path& into) {
     result = run_experiment(scenario, a.jobs, true, {Rows::To::folder, into}, stop_if_asked);
-    complete_run_folder(result, render_report(report_json(result)), into);
+    complete_run_folder(result, render_report(PageKind::run, report_json(result)), into);
   });
   const std::vector<Check> checks = check(result);
   if (!a.junit.empty()) replace_text_file(a.junit, junit_xml(scenario.name, checks, {}));
-  fmt::print("{}{}Result in {}: open {}/report.html\n", experiment_table(result), checks_text(checks),
-             out.said(), out.path());
+  fmt::print("{}{}Result in {}: {}\n", experiment_table(result), checks_text(checks), out.said(), page_said(out.path()));
+  finish_page(out.path(), a.open);
   if (!all_met(checks)) throw Exit(kUnmet, "an expectation was not met");
 }
 
@@ -72,6 +74,7 @@ void add_run_command(CLI::App& app) {
       ->allow_extra_args(false);
   command->add_option("--junit", a->junit, "Write what the scenario's expectations say as JUnit XML");
   command->add_flag("--force", a->force, "Replace a finished result");
+  add_open_option(command, a->open);
   command->add_option("-j,--jobs", a->jobs, "Runs driven at the same time; 0: one per core")
       ->check(CLI::Range(0, 1024));
   add_example(command, "umbsim run umbmark --set course.side_m=2");

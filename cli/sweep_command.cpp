@@ -7,13 +7,13 @@
 #include "cli/commands.h"
 #include "cli/exit.h"
 #include "cli/help.h"
+#include "cli/pages.h"
 #include "cli/shipped.h"
 #include "core/text_file.h"
 #include "core/wrapped_text.h"
 #include "experiment/run_folder.h"
 #include "experiment/run_sweep.h"
 #include "experiment/sweep_result.h"
-#include "report/report.h"
 
 namespace umbsim {
 namespace {
@@ -28,6 +28,7 @@ struct SweepArguments {
   std::vector<std::string> settings;
   std::vector<std::string> axes;
   bool force = false;
+  bool open = false;
   bool retry_failed = false;
   int jobs = 0;
 };
@@ -52,7 +53,7 @@ fs::path folder_of(const SweepArguments& a, const Sweep& sweep) {
 void write_results(const Sweep& sweep, Store& store, const SweepResult& result, const fs::path& folder) {
   replace_text_file(folder / "sweep.json", sweep_json(sweep, result).dump(2) + "\n");
   replace_text_file(folder / "provenance.json", provenance_json(sweep.file, 0).dump(2) + "\n");
-  replace_text_file(folder / "report.html", render_sweep_report(sweep_report_json(sweep, store, result)));
+  if (has_pages()) write_page(folder, PageKind::sweep, sweep_report_json(sweep, store, result));
 }
 
 void print_failed(const SweepResult& result) {
@@ -89,7 +90,8 @@ void conclude(const Sweep& sweep, const SweepArguments& a, const fs::path& folde
                                        result.failed.size())));
   print_failed(result);
   print_warned(result);
-  fmt::print("{}Result in {}: open {}/report.html\n", checks_text(result.checks), folder.string(), folder.string());
+  fmt::print("{}Result in {}: {}\n", checks_text(result.checks), folder.string(), page_said(folder.string()));
+  finish_page(folder.string(), a.open);
   if (result.missing > 0) {
     throw Exit(kRunFailed,
                fmt::format("{} of {} points are missing: a shard has not finished", result.missing, sweep.points));
@@ -145,6 +147,7 @@ void add_common_options(CLI::App* command, const std::shared_ptr<SweepArguments>
   command->add_option("--axis", a->axes, "Replace or add an axis: --axis 'course.side_m=[2, 4]' (repeatable)")
       ->allow_extra_args(false);
   command->add_option("--junit", a->junit, "Write what the expectations say as JUnit XML");
+  add_open_option(command, a->open);
   command->add_option("-j,--jobs", a->jobs, "Points driven at the same time; 0: one per core")
       ->check(CLI::Range(0, 1024));
 }

@@ -10,6 +10,7 @@
 #include "core/printable.h"
 #include "core/wrapped_text.h"
 #include "experiment/cable_layer.h"
+#include "experiment/course/read_course.h"
 #include "experiment/wheel_loads.h"
 
 namespace umbsim {
@@ -43,11 +44,14 @@ std::string injected_line(const InjectedErrors& injected) {
 }
 
 std::string one_way_table(const ExperimentResult& r) {
-  std::string text = "One-way square (each direction alone)\n" + cluster_header();
+  const bool square = r.scenario.course.shape == "square";
+  std::string text = (square ? "One-way square" : "Return errors") + std::string(" (each direction alone)\n") + cluster_header();
   if (!r.cw.errors.empty()) text += cluster_line("cw", r.cw);
   if (!r.ccw.errors.empty()) text += cluster_line("ccw", r.ccw);
-  text += wrapped("  One E_d can hide one E_b in either direction: a one-way test is unfit for differential drives.");
-  return text;
+  if (square || r.cw.errors.empty() || r.ccw.errors.empty())
+    return text +
+           wrapped("  One E_d can hide one E_b in either direction: a one-way test is unfit for differential drives.");
+  return text + wrapped("  Figures of UMBmark are those of squares. For this course see `umbsim calibrate`.");
 }
 
 std::string shares_line(const char* label, const ErrorShares& s) {
@@ -172,7 +176,7 @@ std::string extended_table(const ExtendedUmbmark& e) {
 
 std::string experiment_table(const ExperimentResult& r) {
   std::string text =
-      wrapped(fmt::format("{}: {} on a {} m square", r.scenario.name, r.nominal.urdf, r.scenario.course.side_m));
+      wrapped(fmt::format("{}: {} on {}", r.scenario.name, r.nominal.urdf, course_in_words(r.scenario.course)));
   if (!r.umbmark)
     return text + one_way_table(r) + cables_line(r) + comparison_table(r) + uncertainty_line(r) + loads_line(r);
   text += umbmark_table(*r.umbmark, r.applied(), r.injected);

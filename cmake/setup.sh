@@ -3,7 +3,7 @@
 # Packages by use. Everything comes from Debian.
 build_packages="g++ cmake ninja-build pkg-config git libbullet-dev libeigen3-dev liburdfdom-dev libtinyxml2-dev \
 libyaml-cpp-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtbb-dev libboost-dev libsqlite3-dev libssl-dev \
-libceres-dev libfastcdr-dev libzstd-dev liblz4-dev librosbag-storage-dev"
+libceres-dev libfastcdr-dev libzstd-dev liblz4-dev librosbag-storage-dev nodejs npm"
 test_packages="libgtest-dev libgmock-dev chromium valgrind slurm-wlm munge sqlite3 shellcheck libmujoco-dev"
 # shellcheck disable=SC2034  # used by bench/
 bench_packages="libbenchmark-dev libmujoco-dev valgrind"
@@ -106,14 +106,27 @@ forget_other_place() {
   [ ! -f "$cache" ] || grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache" || rm -rf "$cache" "$build/build.ninja"
 }
 
+# Sets `pages`: ON where the packages of the pages are there or npm gives them, else OFF, and says so.
+choose_pages() {
+  pages=ON
+  "$root/report/web/fetch.sh" "$build/report/pages" --omit=dev > "$build/npm.log" 2>&1 9>&- && return
+  pages=OFF
+  say "npm cannot be reached: the program is built without pages (report.html), and with them once it can (see $build/npm.log)"
+}
+
 # build_targets TARGET...: configures when needed, says so, builds. Silent if there is nothing to do.
 build_targets() {
   mkdir -p "$build"
   forget_other_place
+  choose_pages
   if [ ! -f "$build/build.ninja" ]; then
     first_build=yes
     say "configuring and building in build/release; this takes some minutes the first time"
-    (cd "$root" && quietly cmake --preset release) || { say "configuring failed"; return 1; }
+  elif ! grep -qx "UMBSIM_PAGES:[A-Z]*=$pages" "$build/CMakeCache.txt"; then
+    rm -f "$build/build.ninja"
+  fi
+  if [ ! -f "$build/build.ninja" ]; then
+    (cd "$root" && quietly cmake --preset release -DUMBSIM_PAGES=$pages) || { say "configuring failed"; return 1; }
   fi
   (cd "$root" && run_ninja "$@") || { say "building failed"; return 1; }
 }

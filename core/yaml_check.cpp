@@ -156,11 +156,12 @@ void check_characters(const std::string& text, const std::string& file) {
   }
 }
 
-void parse_all(const std::string& text, const std::string& file, YAML::EventHandler& events) {
+// Behind a bracket too many yaml-cpp finds documents without end: `documents` are read at most.
+void parse_all(const std::string& text, const std::string& file, YAML::EventHandler& events, int documents) {
   std::istringstream stream(text);
   try {
     YAML::Parser parser(stream);
-    while (parser.HandleNextDocument(events)) {
+    while (documents-- > 0 && parser.HandleNextDocument(events)) {
     }
   } catch (const YAML::Exception& error) {
     const SourceMark mark{file, error.mark.line + 1, error.mark.column + 1};
@@ -174,10 +175,10 @@ void check_yaml(const std::string& text, const std::string& file) {
   check_characters(text, file);
   StrictEvents events(file);
   try {
-    parse_all(text, file, events);
+    parse_all(text, file, events, 2);  // the second one is refused
   } catch (const InputError&) {
     AnyEvents any(file);
-    if (events.odd_key()) parse_all(text, file, any);
+    if (events.odd_key()) parse_all(text, file, any, 1);
     throw;
   }
   if (events.documents() == 0) throw InputError(SourceMark{file, 1, 1}, "the file is empty");

@@ -131,13 +131,6 @@ open(page, "w").write(head + begin + table + end + rest.split(end, 1)[1])
 print(table)
 PYTHON
 
-# The picture: the cluster figure of the default report alone.
-hide='header, footer, main > section:not(#scatter), #scatter figcaption {display: none !important}
-main {margin: 0 !important; padding: 10px !important}'
-awk -v style="<style>$(echo "$hide" | tr '\n' ' ')</style>" '{sub("</head>", style "</head>"); print}' \
-  "$out/umbmark/report.html" > "$out/figure.html"
-mkdir -p docs/images
-chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --user-data-dir="$out/profile" \
-  --blink-settings=preferredColorScheme=1 --window-size=980,650 --screenshot="$root/docs/images/umbmark-report.png" \
-  "file://$out/figure.html" > "$out/chromium.log" 2>&1
-ls -l docs/images/umbmark-report.png
+# The pictures, from the pages.
+node docs/make-pictures.mjs build/release/tests/web/tools "$out" docs/images
+ls -l docs/images/umbmark-report.png docs/images/replay.png

@@ -25,8 +25,8 @@ double climbing_friction(double wheel_radius_m, double cable_height_m) {
 CableLayer::CableLayer(const Scenario& scenario, const RunSpec& spec, const Plan& plan)
     : bumps_(scenario.bumps.laid), wheel_(bumped_wheel(bumps_.wheel, spec.direction)) {
   if (!spec.bumped) return;
-  leg_ = 2 * (bumps_.leg - 1);
-  const Segment& leg = plan.segments()[leg_];
+  leg_ = int(plan.leg_segment(bumps_.leg).value());
+  const Segment& leg = plan.segments()[std::size_t(leg_)];
   start_ = leg.X_SB_start;
   length_m_ = leg.length_m;
 }

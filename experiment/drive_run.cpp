@@ -31,10 +31,10 @@ void scatter_motors(Rig& rig, double sd) {
 std::vector<Push> timed(const std::vector<LegPush>& pushes, const Plan& plan) {
   std::vector<Push> result;
   for (const LegPush& p : pushes) {
-    const std::size_t segment = 2 * std::size_t(p.leg - 1);
-    if (segment >= plan.segments().size()) continue;
+    const auto segment = plan.leg_segment(p.leg);
+    if (!segment) continue;
     result.push_back(p.push);
-    result.back().time_s += plan.segments()[segment].start_s;
+    result.back().time_s += plan.segments()[*segment].start_s;
   }
   return result;
 }
@@ -86,7 +86,15 @@ double torque_limit(const Scenario& s, const RobotModel& robot) {
 
 namespace {
 
-constexpr int kLap = 8;  // segments: four legs, four turns
+WheelMoment wheels_of(const World& world) {
+  WheelMoment now;
+  for (int i = 0; i < 2; ++i) {
+    now.angle_rad[std::size_t(i)] = world.wheel_angle(i);
+    now.load_n[std::size_t(i)] = world.loads().wheel_n[std::size_t(i)];
+    now.slid_s[std::size_t(i)] = world.strain(i).slid_s;
+  }
+  return now;
+}
 
 DrivenRun drive_plan(const Scenario& scenario, const Rig& rig, const Plan& plan, const OdometryParameters& odometry,
                      const RunSpec& spec, const RunOutput& output) {
@@ -113,10 +121,12 @@ DrivenRun drive_plan(const Scenario& scenario, const Rig& rig, const Plan& plan,
     const std::int64_t right = right_encoder.read(time_s, world.encoder_angle(1));
     reckoning.update(left, right);
     segment = plan.at(time_s, segment).segment;
-    laps.done(segment / kLap);
+    laps.done((plan.segments()[std::size_t(segment)].leg - 1) / legs_per_lap(scenario.course));
     track.fix_if_due(segment, world.pose(), reckoning);
     recorder.encoders(time_s, left, right, command);
-    if (recorder.truth_is_due(period)) recorder.truth(time_s, world.pose(), track.note(world.pose(), reckoning));
+    if (recorder.truth_is_due(period)) {
+      recorder.truth(time_s, world.pose(), track.note(world.pose(), reckoning), wheels_of(world));
+    }
     if (period == periods) break;
     cables.lay_if_due(reckoning.pose(), segment, world, rig, recorder.run());
     command = period < driven ? drive(plan, time_s, period_s, reckoning.pose(), believed, segment) : WheelSpeeds{};

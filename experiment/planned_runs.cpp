@@ -6,19 +6,10 @@
 #include <tbb/parallel_for.h>
 
 #include "core/random.h"
+#include "experiment/course/recorded_course.h"
 
 namespace umbsim {
 namespace {
-
-void set_course(Course& course, const RecordedPath& path) {
-  course.side_m = path.side_m;
-  course.turn = path.turn;
-  course.turn_radius_m = path.turn_radius_m.value_or(course.turn_radius_m);
-  course.linear_speed_mps = path.linear_speed_mps.value_or(course.linear_speed_mps);
-  course.angular_speed_radps = path.angular_speed_radps.value_or(course.angular_speed_radps);
-  course.linear_acceleration_mps2 = path.linear_acceleration_mps2.value_or(course.linear_acceleration_mps2);
-  course.angular_acceleration_radps2 = path.angular_acceleration_radps2.value_or(course.angular_acceleration_radps2);
-}
 
 Scenario scenario_of(Scenario s, const RobotModel& nominal, const Recording& planned, const RecordedRun& run) {
   set_course(s.course, planned.path);

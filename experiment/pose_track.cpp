@@ -12,8 +12,8 @@ TrackKeeper::TrackKeeper(const Scenario& scenario, const RunSpec& spec, const Pl
       X_SW_(inverse(Pose2{0, 0, scenario.runs.start_heading_rad})),
       random_(scenario.seed, "absolute fix", std::uint64_t(spec.number)) {
   for (const AbsoluteFix& fix : scenario.fixes) {
-    const int turn = 2 * (fix.leg - 1) + 1;
-    if (turn < int(plan.segments().size())) fixes_.push_back({turn, fix.noise});
+    const auto leg = plan.leg_segment(fix.leg);
+    if (leg && *leg + 1 < plan.segments().size()) fixes_.push_back({int(*leg) + 1, fix.noise});
   }
   std::stable_sort(fixes_.begin(), fixes_.end(), [](const Fix& a, const Fix& b) { return a.segment < b.segment; });
 }

@@ -49,11 +49,12 @@ bool Recorder::truth_is_due(int period) const {
   return end || (truth_.kind != "endpoints" && period % stride_ == 0);
 }
 
-void Recorder::truth(double time_s, const Pose2& X_WB, const std::optional<UncertainPose>& estimate) {
+void Recorder::truth(double time_s, const Pose2& X_WB, const std::optional<UncertainPose>& estimate,
+                     const WheelMoment& wheels) {
   const double x = random_.normal(X_WB.x_m, truth_.position_sd_m);
   const double y = random_.normal(X_WB.y_m, truth_.position_sd_m);
   const TruthSample row{time_s, {x, y, random_.normal(X_WB.theta_rad, truth_.heading_sd_rad)}};
-  digester_.add(row, estimate);
+  digester_.add(row, estimate, wheels);
   if (in_memory_) run_.truth.push_back(row);
   if (writer_) writer_->add(row);
 }

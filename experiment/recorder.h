@@ -22,7 +22,7 @@ class Recorder {
   void encoders(double time_s, std::int64_t left, std::int64_t right, const WheelSpeeds& command);
   /// Whether an absolute pose is taken in this period.
   bool truth_is_due(int period) const;
-  void truth(double time_s, const Pose2& X_WB, const std::optional<UncertainPose>& estimate);
+  void truth(double time_s, const Pose2& X_WB, const std::optional<UncertainPose>& estimate, const WheelMoment& wheels);
 
   RecordedRun& run() { return run_; }
   /// Everything but track, cost and cables.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "recording/yaml_text.h"
+#include "experiment/course/read_course.h"
 #include "experiment/scenario.h"
 
 namespace umbsim {
@@ -15,7 +16,8 @@ std::string optional_line(const char* key, const std::optional<double>& value) {
 std::string odometry_block(const OdometryChoice& o) {
   const std::string lines = optional_line("left_radius_m", o.left_radius_m) +
                             optional_line("right_radius_m", o.right_radius_m) +
-                            optional_line("wheelbase_m", o.wheelbase_m);
+                            optional_line("wheelbase_m", o.wheelbase_m) +
+                            (o.scrub > 0 ? fmt::format("  scrub: {}\n", o.scrub) : "");
   return lines.empty() ? "odometry: {}  # the URDF's nominal dimensions\n" : "odometry:\n" + lines;
 }
 
@@ -69,15 +71,6 @@ std::string expect_block(const std::vector<Expectation>& expectations) {
   std::string text = by_figure.empty() ? "" : "expect:\n";
   for (const auto& [figure, items] : by_figure) text += fmt::format("  {}: [{}]\n", figure, items);
   return text;
-}
-
-std::string course_block(const Course& c) {
-  return fmt::format(
-      "course:\n  shape: square\n  side_m: {}\n  turn: {}\n  turn_radius_m: {}\n  linear_speed_mps: {}\n"
-      "  angular_speed_radps: {}\n  linear_acceleration_mps2: {}\n  angular_acceleration_radps2: {}\n"
-      "  dwell_s: {}\n  laps: {}\n",
-      c.side_m, c.turn, c.turn_radius_m, c.linear_speed_mps, c.angular_speed_radps, c.linear_acceleration_mps2,
-      c.angular_acceleration_radps2, c.dwell_s, c.laps);
 }
 
 std::string runs_block(const RunChoice& r) {

@@ -33,9 +33,10 @@ Json one_way_json(const ExperimentResult& r) {
     const Cluster& other = take_cw ? r.ccw : r.cw;
     json["other_r_cg_m"] = other.r_cg_m;
     json["warning"] = fmt::format(
-        "The {} square alone would report {:.1f} mm; the {} square shows {:.1f} mm. One direction can hide one error "
+        "The {0} {4} alone would report {1:.1f} mm; the {2} {4} shows {3:.1f} mm. One direction can hide one error "
         "behind the other: a one-way test is unfit for differential drives.",
-        take_cw ? "cw" : "ccw", c.r_cg_m * 1000, take_cw ? "ccw" : "cw", other.r_cg_m * 1000);
+        take_cw ? "cw" : "ccw", c.r_cg_m * 1000, take_cw ? "ccw" : "cw", other.r_cg_m * 1000,
+        r.scenario.course.shape == "figure_eight" ? "figure eight" : r.scenario.course.shape);
   } else {
     json["warning"] =
         "Only one direction was driven. One E_d can be hidden by one E_b: a one-way test is unfit for differential "
@@ -218,6 +219,13 @@ Json provenance_json(const std::string& input, std::uint64_t seed) {
   return {{"program", "umbsim"},          {"version", info.version},   {"commit", info.commit},
           {"input", input},      {"seed", seed},            {"compiler", info.compiler},
           {"bullet_version", info.bullet}, {"build_type", info.build_type}, {"host", host}};
+}
+
+Json page_provenance_json(const std::string& input, std::uint64_t seed) {
+  Json json = provenance_json(input, seed);
+  json.erase("host");
+  json.erase("input");
+  return json;
 }
 
 }  // namespace umbsim

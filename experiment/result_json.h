@@ -27,5 +27,7 @@ Json explanation_json(const Scenario& scenario, const Explanation& explanation);
 /// provenance.json: version, commit, seed, compiler, Bullet version, host.
 /// `input`: the file or folder that was read.
 Json provenance_json(const std::string& input, std::uint64_t seed);
+/// The same for a page, which may be passed on and is the same for the same result: without host and path.
+Json page_provenance_json(const std::string& input, std::uint64_t seed);
 
 }  // namespace umbsim

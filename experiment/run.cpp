@@ -10,6 +10,7 @@
 #include "core/progress.h"
 #include "effects/silent.h"
 #include "experiment/check_loop.h"
+#include "experiment/course/recorded_course.h"
 #include "experiment/first_failure.h"
 #include "experiment/wheel_loads.h"
 #include "recording/names.h"
@@ -85,13 +86,7 @@ Recording empty_recording(const Scenario& s, const RobotModel& nominal) {
   r.robot = {urdf_copy_name(nominal.urdf),      nominal.wheels[0].radius_m, nominal.wheelbase_m(),
              s.encoders.ticks_per_revolution, scenario_urdf_text(s),      s.robot.joints.left,
              s.robot.joints.right};
-  r.path.side_m = s.course.side_m;
-  r.path.turn = s.course.turn;
-  if (s.course.turn == "arc") r.path.turn_radius_m = s.course.turn_radius_m;
-  r.path.linear_speed_mps = s.course.linear_speed_mps;
-  r.path.angular_speed_radps = s.course.angular_speed_radps;
-  r.path.linear_acceleration_mps2 = s.course.linear_acceleration_mps2;
-  r.path.angular_acceleration_radps2 = s.course.angular_acceleration_radps2;
+  r.path = recorded_path(s.course);
   r.encoder_rate_hz = s.encoders.rate_hz;
   r.truth_kind = s.truth.kind;
   r.truth_position_sd_m = s.truth.position_sd_m;
@@ -116,7 +111,7 @@ Umbmark umbmark_of(const DrivenRuns& driven, const OdometryParameters& odometry)
 void measure(ExperimentResult& result) {
   result.cw = cluster_of(result, "cw", false);
   result.ccw = cluster_of(result, "ccw", false);
-  if (result.scenario.runs.directions.size() < 2) return;
+  if (result.scenario.runs.directions.size() < 2 || result.scenario.course.shape != "square") return;
   result.umbmark = umbmark_of(result, result.odometry);
   Cluster cw = cluster_of(result, "cw", true), ccw = cluster_of(result, "ccw", true);
   if (cw.errors.empty() || ccw.errors.empty()) return;

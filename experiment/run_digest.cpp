@@ -16,7 +16,8 @@ void Digester::add(const EncoderSample& row) {
   if (on_floor_) on_floor_->update(row.left_ticks, row.right_ticks);
 }
 
-void Digester::add(const TruthSample& row, const std::optional<UncertainPose>& estimate) {
+void Digester::add(const TruthSample& row, const std::optional<UncertainPose>& estimate,
+                   const std::optional<WheelMoment>& wheels) {
   if (!on_floor_) {
     start_ = row.X_WB;
     on_floor_.emplace(odometry_, start_, first_.left_ticks, first_.right_ticks);
@@ -25,8 +26,10 @@ void Digester::add(const TruthSample& row, const std::optional<UncertainPose>& e
   const bool kept = seen_ % digest_.stride == 0 || seen_ + 1 == truths_;
   ++seen_;
   if (!kept) return;
+  digest_.time_s.push_back(row.time_s);
   digest_.truth.push_back(row.X_WB);
   digest_.odometry.push_back(on_floor_->pose());
+  if (wheels) digest_.wheels.push_back(*wheels);
   if (estimate) digest_.estimates.push_back(*estimate);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -9,11 +10,20 @@
 
 namespace umbsim {
 
+/// Both wheels at one moment: how far they turned, what they carry, how long they have slid at their friction limit.
+struct WheelMoment {
+  std::array<double, 2> angle_rad{};
+  std::array<double, 2> load_n{};
+  std::array<double, 2> slid_s{};
+};
+
 /// What the results need of a run beside its rows: few numbers, however long it is.
 struct RunDigest {
   ReturnError error;
   std::vector<Pose2> truth;     ///< every `stride`-th absolute pose and the last one, floor frame
   std::vector<Pose2> odometry;  ///< at the same moments
+  std::vector<double> time_s;   ///< the moments
+  std::vector<WheelMoment> wheels;       ///< the same; empty where nobody measures them
   std::vector<UncertainPose> estimates;  ///< the same; empty if the scenario has no `uncertainty`
   std::size_t stride = 1;
 };
@@ -25,7 +35,8 @@ class Digester {
   Digester(const OdometryParameters& odometry, std::size_t truths, std::size_t most_poses);
 
   void add(const EncoderSample& row);
-  void add(const TruthSample& row, const std::optional<UncertainPose>& estimate);
+  void add(const TruthSample& row, const std::optional<UncertainPose>& estimate,
+           const std::optional<WheelMoment>& wheels = {});
   RunDigest finish(const std::string& run);
 
  private:

@@ -108,7 +108,7 @@ void complete_run_folder(const ExperimentResult& result, const std::string& page
   write_scenario(result.scenario, into / "scenario.resolved.yaml");
   write_text_file(into / "provenance.json", provenance_json(result.scenario.file, result.scenario.seed).dump(2) + "\n");
   write_text_file(into / "summary.json", summary_json(result).dump(2) + "\n");
-  write_text_file(into / "report.html", page);
+  if (!page.empty()) write_text_file(into / "report.html", page);
   if (result.passes.empty()) return;
   const CalibrationPass& last = result.passes.back();
   write_text_file(into / "calibration.yaml",

@@ -21,7 +21,7 @@ void write_folder(const std::filesystem::path& folder, bool force,
 
 /// The run folder of an experiment whose rows stand there already: a recording, scenario.resolved.yaml, provenance.json,
 /// summary.json, calibration.yaml where it calibrated (with the runs that prove it in `calibrated/`, a recording too), and
-/// `page` as report.html.
+/// `page`, unless it is empty, as report.html.
 void complete_run_folder(const ExperimentResult& result, const std::string& page, const std::filesystem::path& folder);
 
 }  // namespace umbsim

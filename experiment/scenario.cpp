@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/course/read_course.h"
 #include "experiment/robot_choice.h"
 #include "experiment/settings.h"
 
@@ -28,28 +29,6 @@ double read_floor(const YamlValue& value) {
   const double friction = map.number("friction", 0.9, {0, 5, true});
   map.finish();
   return friction;
-}
-
-Course read_course(const YamlValue& value) {
-  YamlMap map(value);
-  Course c;
-  const Bounds positive = Bounds::positive();
-  map.choice("shape", "square", {"square"});
-  c.side_m = map.number("side_m", c.side_m, {0, 1000, true});
-  c.turn = map.choice("turn", c.turn, {"in_place", "arc"});
-  c.turn_radius_m = map.number("turn_radius_m", c.turn_radius_m, positive);
-  c.linear_speed_mps = map.number("linear_speed_mps", c.linear_speed_mps, {0, 10, true});
-  c.angular_speed_radps = map.number("angular_speed_radps", c.angular_speed_radps, {0, 20, true});
-  c.linear_acceleration_mps2 = map.number("linear_acceleration_mps2", c.linear_acceleration_mps2, positive);
-  c.angular_acceleration_radps2 = map.number("angular_acceleration_radps2", c.angular_acceleration_radps2, positive);
-  c.dwell_s = map.number("dwell_s", c.dwell_s, Bounds::between(0, 60));
-  c.laps = int(map.integer("laps", c.laps, 1, 1000));
-  map.finish();
-  if (c.turn == "arc" && c.turn_radius_m >= c.side_m / 2) {
-    value.fail(fmt::format("turn_radius_m = {} does not fit into a square of side_m = {} (must be < side_m / 2)",
-                           c.turn_radius_m, c.side_m));
-  }
-  return c;
 }
 
 RunChoice read_runs(const YamlValue& value) {
@@ -86,12 +65,13 @@ Cable read_cable(const YamlValue& value) {
 
 BumpChoice read_bumps(const YamlValue& value, const Course& course) {
   YamlMap map(value);
+  if (course.shape != "square") value.fail("cables are laid on squares only; course.shape is " + course.shape);
   BumpChoice b;
   const std::string wheel = map.choice("wheel", "inner", {"inner", "outer", "left", "right"});
   for (const BumpWheel w : {BumpWheel::inner, BumpWheel::outer, BumpWheel::left, BumpWheel::right}) {
     if (wheel == name(w)) b.laid.wheel = w;
   }
-  b.laid.leg = int(map.integer("leg", 1, 1, 4 * course.laps));
+  b.laid.leg = int(map.integer("leg", 1, 1, legs_per_lap(course) * course.laps));
   const bool only_fixed = map.has("cables") && !map.has("count");
   b.laid.count = int(map.integer("count", only_fixed ? 0 : 10, 0, 1000));
   b.laid.height_m = map.number("height_m", b.laid.height_m, {0, 0.05, true});
@@ -132,6 +112,7 @@ OdometryChoice read_odometry(const YamlValue& value) {
   if (const auto v = map.find("left_radius_m")) o.left_radius_m = v->number(positive);
   if (const auto v = map.find("right_radius_m")) o.right_radius_m = v->number(positive);
   if (const auto v = map.find("wheelbase_m")) o.wheelbase_m = v->number(positive);
+  o.scrub = map.number("scrub", 0, Bounds::between(0, 0.1));
   map.finish();
   return o;
 }
@@ -150,7 +131,7 @@ std::vector<AbsoluteFix> read_fixes(const YamlValue& value, const Course& course
   for (const YamlValue& item : value.list()) {
     YamlMap map(item);
     AbsoluteFix f;
-    f.leg = int(map.at("leg").integer(1, 4 * course.laps));
+    f.leg = int(map.at("leg").integer(1, legs_per_lap(course) * course.laps));
     f.noise.position_sd_m = map.number("position_sd_m", f.noise.position_sd_m, {0, 10, true});
     f.noise.heading_sd_rad = map.number("heading_sd_rad", f.noise.heading_sd_rad, {0, 10, true});
     map.finish();
@@ -163,10 +144,21 @@ std::vector<AbsoluteFix> read_fixes(const YamlValue& value, const Course& course
   return fixes;
 }
 
-CalibrationChoice read_calibration(const YamlValue& value) {
-  YamlMap map(value);
+// The run itself calibrates by UMBmark, which squares alone are made for.
+CalibrationChoice default_calibration(const Course& course) {
   CalibrationChoice c;
+  if (course.shape != "square") c.method = Calibrate::none;
+  return c;
+}
+
+CalibrationChoice read_calibration(const YamlValue& value, const Course& course) {
+  YamlMap map(value);
+  CalibrationChoice c = default_calibration(course);
   const std::string method = map.choice("method", name(c.method), {"none", "endpoint", "heading"});
+  if (method != "none" && course.shape != "square") {
+    map.at("method").fail(fmt::format("'{}' needs squares, course.shape is {}: must be none. `umbsim calibrate` has methods "
+                                      "for it", method, course.shape));
+  }
   for (const Calibrate m : {Calibrate::none, Calibrate::endpoint, Calibrate::heading}) {
     if (method == name(m)) c.method = m;
   }
@@ -235,7 +227,8 @@ Scenario read_scenario(const YamlValue& document) {
   if (const auto v = map.find("odometry")) s.odometry = read_odometry(*v);
   if (const auto v = map.find("uncertainty")) s.uncertainty = read_uncertainty(*v);
   if (const auto v = map.find("fixes")) s.fixes = read_fixes(*v, s.course, s.uncertainty);
-  if (const auto v = map.find("calibration")) s.calibration = read_calibration(*v);
+  s.calibration = default_calibration(s.course);
+  if (const auto v = map.find("calibration")) s.calibration = read_calibration(*v, s.course);
   if (const auto v = map.find("physics")) s.physics = read_physics(*v);
   if (const auto v = map.find("effects")) s.effects = read_effects(*v);
   if (const auto v = map.find("expect")) s.expect = read_expectations(*v, ExpectationsOf::run);

@@ -29,6 +29,7 @@ struct OdometryChoice {
   std::optional<double> left_radius_m;
   std::optional<double> right_radius_m;
   std::optional<double> wheelbase_m;
+  double scrub = 0;
 };
 
 /// Which runs are driven.

@@ -63,7 +63,8 @@ std::vector<std::string> assumed_of_robot(const Scenario& s) {
 OdometryParameters initial_odometry(const Scenario& s, const RobotModel& nominal) {
   return {s.odometry.left_radius_m.value_or(nominal.wheels[0].radius_m),
           s.odometry.right_radius_m.value_or(nominal.wheels[1].radius_m),
-          s.odometry.wheelbase_m.value_or(nominal.wheelbase_m()), s.encoders.ticks_per_revolution};
+          s.odometry.wheelbase_m.value_or(nominal.wheelbase_m()), s.encoders.ticks_per_revolution,
+          s.odometry.scrub};
 }
 
 }  // namespace umbsim

@@ -69,8 +69,10 @@ Asked asked_rolling(const Segment& s, const Course& course, const Course& as_giv
 Asked asked(const Segment& s, const Course& course, const Course& as_given, double time_s) {
   Asked a = s.length_m == 0 ? asked_in_place(s, course, as_given) : asked_rolling(s, course, as_given);
   a.ramp_s = s.ramp_s;
-  a.doing = fmt::format("{} {} ({})", s.kind == Segment::Kind::leg ? "on leg" : "in the turn after leg", s.leg,
-                        phase(s, time_s - s.start_s));
+  const std::string where = s.leg == 0 ? "in the turn before leg 1"
+                                       : fmt::format("{} {}", s.kind == Segment::Kind::leg ? "on leg" : "in the turn after leg",
+                                                     s.leg);
+  a.doing = fmt::format("{} ({})", where, phase(s, time_s - s.start_s));
   return a;
 }
 

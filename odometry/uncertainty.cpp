@@ -79,8 +79,9 @@ UncertainReckoning::UncertainReckoning(const OdometryParameters& parameters, con
 
 void UncertainReckoning::update(std::int64_t left_ticks, std::int64_t right_ticks) {
   if (noise_.any()) {
-    const double left_m = double(left_ticks - left_ticks_) * parameters_.left_metres_per_tick();
-    const double right_m = double(right_ticks - right_ticks_) * parameters_.right_metres_per_tick();
+    const auto [left_m, right_m] =
+        over_floor(parameters_, {double(left_ticks - left_ticks_) * parameters_.left_metres_per_tick(),
+                                 double(right_ticks - right_ticks_) * parameters_.right_metres_per_tick()});
     const ArcJacobians j = arc_jacobians(pose(), left_m, right_m, parameters_.wheelbase_m);
     covariance_ = after_arc(covariance_, j, left_m, right_m, noise_);
   }

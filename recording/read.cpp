@@ -89,13 +89,33 @@ RecordedRobot read_robot(const fs::path& directory, const YamlValue& value) {
   return robot;
 }
 
+std::vector<Waypoint> read_waypoints(const YamlValue& value) {
+  std::vector<Waypoint> waypoints;
+  for (const YamlValue& item : value.list()) {
+    const std::vector<YamlValue> place = item.list();
+    if (place.size() != 2) item.fail("a waypoint is two numbers, [x, y]");
+    waypoints.push_back({place[0].number(kPlace), place[1].number(kPlace)});
+  }
+  return waypoints;
+}
+
+void read_shape(YamlMap& map, RecordedPath& path) {
+  path.shape = map.at("shape").choice({"square", "circle", "figure_eight", "path", "free"});
+  const auto side = map.find("side_m"), radius = map.find("radius_m"), waypoints = map.find("waypoints_m");
+  if (path.shape == "square") path.side_m = map.number("side_m", kLength);
+  if (path.shape != "square" && side) side->fail(fmt::format("only a square has a side (shape is {})", path.shape));
+  const bool round = path.shape == "circle" || path.shape == "figure_eight";
+  if (radius && !round) radius->fail(fmt::format("only circles have a radius (shape is {})", path.shape));
+  if (radius) path.radius_m = radius->number(kLength);
+  if (waypoints && path.shape != "path")
+    waypoints->fail(fmt::format("only a path has waypoints (shape is {})", path.shape));
+  if (waypoints) path.waypoints = read_waypoints(*waypoints);
+}
+
 RecordedPath read_path(const YamlValue& value) {
   YamlMap map(value);
   RecordedPath path;
-  path.shape = map.at("shape").choice({"square", "circle", "free"});
-  const auto side = map.find("side_m");
-  if (path.shape == "square") path.side_m = map.number("side_m", kLength);
-  if (path.shape != "square" && side) side->fail(fmt::format("only a square has a side (shape is {})", path.shape));
+  read_shape(map, path);
   path.turn = map.choice("turn", path.turn, kTurns);
   path.turn_radius_m = optional_number(map, "turn_radius_m", kLength);
   path.linear_speed_mps = optional_number(map, "linear_speed_mps", kSpeed);

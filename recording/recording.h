@@ -44,9 +44,17 @@ struct RecordedRobot {
   std::string right_joint{};
 };
 
+/// A place that the robot drives to, in the frame of its start.
+struct Waypoint {
+  double x_m = 0;
+  double y_m = 0;
+};
+
 struct RecordedPath {
-  std::string shape = "square";  ///< square | circle | free
-  double side_m = 0;             ///< square only
+  std::string shape = "square";      ///< square | circle | figure_eight | path | free
+  double side_m = 0;                 ///< square only
+  std::optional<double> radius_m;    ///< circle and figure_eight only, where it is known
+  std::vector<Waypoint> waypoints;   ///< path only, where they are known: as driven ccw, mirrored for cw
   std::string turn = "in_place";
   std::optional<double> turn_radius_m;
   std::optional<double> linear_speed_mps;

@@ -33,9 +33,20 @@ void append_robot(Text& text, const RecordedRobot& robot) {
   if (!robot.right_joint.empty()) append(text, "\n  right_joint: " + yaml_string(robot.right_joint));
 }
 
+void append_waypoints(Text& text, const std::vector<Waypoint>& waypoints) {
+  const char* before = "\n  waypoints_m: [";
+  for (const Waypoint& w : waypoints) {
+    append(text, fmt::format("{}[{}, {}]", before, yaml_number(w.x_m, "x_m"), yaml_number(w.y_m, "y_m")));
+    before = ", ";
+  }
+  if (!waypoints.empty()) append(text, "]");
+}
+
 void append_path(Text& text, const RecordedPath& path) {
   append(text, "\npath:\n  shape: " + yaml_string(path.shape));
   if (path.shape == "square") append_number(text, "\n  ", "side_m", path.side_m);
+  append_number(text, "\n  ", "radius_m", path.radius_m);
+  append_waypoints(text, path.waypoints);
   if (path.shape == "square" || path.turn != "in_place") append(text, "\n  turn: " + yaml_string(path.turn));
   append_number(text, "\n  ", "turn_radius_m", path.turn_radius_m);
   append_number(text, "\n  ", "linear_speed_mps", path.linear_speed_mps);

@@ -1,22 +1,22 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 namespace umbsim {
 
-/// One self-contained HTML page that opens offline. `data` holds title, description, version, seed, summary
-/// (summary.json), runs (return error, decimated truth and odometry paths in metres and radians) and bumps; every part
-/// may be missing: the page then leaves that section out. Optional `side_m` and `wheelbase_m` (nominal) add R and the
-/// actual wheelbase.
-std::string render_report(const nlohmann::json& data);
+/// What a page shows; report/web/src/main.ts has a part for each.
+enum class PageKind { run, recording, sweep, gap, calibration, explanation, plan, prediction, score, index };
 
-/// The same for a sweep: `data` holds title, description, version, points, done, failed, checks, axes, figures, view,
-/// stride and rows (experiment/sweep_result.h).
-std::string render_sweep_report(const nlohmann::json& data);
+/// False in a program that was built without pages (UMBSIM_PAGES=OFF): render_report() then gives an empty text.
+bool has_pages();
 
-/// The same for a gap diagnosis: `data` holds title, version, diagnosis (diagnosis.json without its cost) and runs
-/// (gap/output/tracks_json.h).
-std::string render_gap_report(const nlohmann::json& data);
+/// One self-contained HTML page that opens offline. `data` is what the page shows, an object, with at least `title` and
+/// `version`; every other part may be missing: the page then leaves it out (docs/pages.md).
+std::string render_report(PageKind kind, const nlohmann::ordered_json& data);
+
+/// The data of a page that render_report() made, with its `page` (the kind); none if the text is no such page.
+std::optional<nlohmann::ordered_json> page_data(const std::string& page);
 
 }  // namespace umbsim

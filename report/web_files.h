@@ -2,13 +2,10 @@
 
 #include <string_view>
 
-/// The files of report/web/, embedded at build time (cmake/EmbedText.cmake).
+/// What is built from report/web/, embedded at build time (cmake/EmbedFile.cmake).
 namespace umbsim::web {
 
 extern const std::string_view page_html;
-extern const std::string_view report_css;
-extern const std::string_view report_js;
-extern const std::string_view sweep_js;
-extern const std::string_view gap_js;
+extern const std::string_view replay_js;
 
 }  // namespace umbsim::web

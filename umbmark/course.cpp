@@ -30,23 +30,9 @@ double extent_at(const Segment& s, double t) {
   return s.speed * (t - s.ramp_s / 2);
 }
 
-std::vector<Segment> square(const Course& course, Direction direction) {
-  const bool arc_turn = course.turn == "arc";
-  const double turn_rad = (direction == Direction::ccw ? 1 : -1) * M_PI / 2;
-  const double leg_m = arc_turn ? course.side_m - 2 * course.turn_radius_m : course.side_m;
-  std::vector<Segment> shapes;
-  for (int leg = 1; leg <= 4 * course.laps; ++leg) {
-    shapes.push_back({.kind = Segment::Kind::leg, .leg = leg, .length_m = leg_m, .X_SB_start = {}});
-    shapes.push_back({.kind = Segment::Kind::turn, .leg = leg,
-                      .length_m = arc_turn ? course.turn_radius_m * M_PI / 2 : 0, .angle_rad = turn_rad,
-                      .X_SB_start = {}});
-  }
-  return shapes;
-}
-
 }  // namespace
 
-Plan::Plan(const Course& course, Direction direction) : Plan(course, square(course, direction)) {}
+Plan::Plan(const Course& course, Direction direction) : Plan(course, shapes_of(course, direction)) {}
 
 Plan::Plan(const Course& course, const std::vector<Segment>& shapes) : segments_(shapes) {
   Pose2 X_SB;
@@ -57,6 +43,13 @@ Plan::Plan(const Course& course, const std::vector<Segment>& shapes) : segments_
     X_SB = X_SB * arc(segment.length_m, segment.angle_rad);
     duration_s_ += segment.duration_s + course.dwell_s;
   }
+}
+
+std::optional<std::size_t> Plan::leg_segment(int leg) const {
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    if (segments_[i].kind == Segment::Kind::leg && segments_[i].leg == leg) return i;
+  }
+  return std::nullopt;
 }
 
 int Plan::segment_at(double time_s, int hint) const {

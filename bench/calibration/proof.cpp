@@ -31,15 +31,6 @@ struct Found {
   bool held = false;
 };
 
-// The circle test has nothing to say of squares.
-std::vector<const Method*> methods_of_squares() {
-  std::vector<const Method*> all;
-  for (const Method& m : methods()) {
-    if (std::string(m.name) != "circles") all.push_back(&m);
-  }
-  return all;
-}
-
 using FoundByMethod = std::map<std::string, std::array<Found, 3>>;
 
 std::array<Found, 3> found(const Fit& fit, const LogFactors& truth, const OdometryParameters& nominal) {
@@ -62,14 +53,16 @@ std::array<Found, 3> found(const Fit& fit, const LogFactors& truth, const Odomet
 FoundByMethod calibrated(const ProofRobot& robot) {
   FoundByMethod all;
   const Scenario scenario = proof_scenario(robot);
-  const std::vector<Recording> recordings{run_experiment(scenario, 1).recording};
-  const OdometryParameters nominal = nominal_odometry(recordings[0].robot);
-  const Runs runs = training_runs(recordings, {"squares"});
+  const std::vector<Recording> squares{run_experiment(scenario, 1).recording};
+  const std::vector<Recording> circles{run_experiment(on_circles(scenario), 1).recording};
+  const OdometryParameters nominal = nominal_odometry(squares[0].robot);
   const LogFactors truth = true_factors(scenario);
-  for (const Method* m : methods_of_squares()) {
-    all[m->name] = {};
+  for (const Method& m : methods()) {
+    all[m.name] = {};
+    const bool on_circle = std::string(m.name) == "circles";
+    const Runs runs = training_runs(on_circle ? circles : squares, {"runs"});
     try {
-      all[m->name] = found(fit_with(*m, runs, nominal), truth, nominal);
+      all[m.name] = found(fit_with(m, runs, nominal), truth, nominal);
     } catch (const NotApplicable&) {  // counts as no answer
     }
   }
@@ -102,9 +95,9 @@ void prove(const std::filesystem::path& folder, int count) {
   std::vector<FoundByMethod> all(robots.size());
   tbb::parallel_for(std::size_t(0), robots.size(), [&](std::size_t i) { all[i] = calibrated(robots[i]); });
   std::vector<MethodScore> scores;
-  for (const Method* m : methods_of_squares()) {
-    scores.push_back({m->name, {}});
-    for (std::size_t f = 0; f < 3; ++f) scores.back().figures[f] = score(all, m->name, f);
+  for (const Method& m : methods()) {
+    scores.push_back({m.name, {}});
+    for (std::size_t f = 0; f < 3; ++f) scores.back().figures[f] = score(all, m.name, f);
   }
   std::filesystem::create_directories(folder);
   write_text_file(folder / "table.md", score_table(scores));

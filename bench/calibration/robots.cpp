@@ -51,6 +51,12 @@ Scenario proof_scenario(const ProofRobot& robot) {
   return s;
 }
 
+Scenario on_circles(Scenario scenario) {
+  scenario.course.shape = "circle";
+  scenario.course.radius_m = scenario.course.side_m / 2;
+  return scenario;
+}
+
 calibration::LogFactors true_factors(const Scenario& scenario) {
   Scenario quiet = scenario;
   quiet.noise = {};

@@ -26,6 +26,9 @@ std::vector<ProofRobot> proof_robots(int count, std::uint64_t seed);
 /// Five runs each way on squares.
 Scenario proof_scenario(const ProofRobot& robot);
 
+/// The same robot on circles, as wide as its squares.
+Scenario on_circles(Scenario scenario);
+
 /// What a method should find.
 calibration::LogFactors true_factors(const Scenario& scenario);
 

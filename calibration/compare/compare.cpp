@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "calibration/compare/held_out.h"
-#include "calibration/methods/squares.h"
+#include "calibration/methods/squares/squares.h"
 #include "calibration/prediction.h"
 #include "core/error.h"
 
@@ -102,7 +102,7 @@ MethodResult fitted(const Task& task, const Runs& runs, const Method& method) {
   result.odometry = task.nominal;
   try {
     result.fit = fit_with(method, runs, task.nominal);
-    result.odometry = scaled(task.nominal, result.fit->factors);
+    result.odometry = fitted_odometry(task.nominal, *result.fit);
     name_trackers(*result.fit, task.train_names);
   } catch (const NotApplicable& no) {
     result.why_not = no.what();

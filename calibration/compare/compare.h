@@ -31,8 +31,9 @@ struct MethodResult {
   OdometryParameters odometry;  ///< nominal where it has none
   std::vector<MeanError> train, test;
   std::optional<double> e_max_m;  ///< of the squares to train on (the largest), by this odometry
-  double held_out_mm = 0;    ///< mean of final_mm of runs that were left out; of the nominal where it has no answer
-  int held_out_answers = 0;  ///< folds in which it had one
+  double held_out_mm = 0;       ///< mean of final_mm of runs that were left out; of the nominal where it has no answer
+  std::vector<double> fold_mm;  ///< the same of each fold
+  int held_out_answers = 0;     ///< folds in which it had one
 };
 
 struct Comparison {

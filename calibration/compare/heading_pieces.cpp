@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/methods/travel.h"
+#include "calibration/methods/paths/travel.h"
 #include "recording/stretches.h"
 
 namespace umbsim::calibration {

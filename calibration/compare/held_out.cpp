@@ -19,12 +19,17 @@ std::string both_ways(const TrainingRun& r) {
 }
 
 // What the method says without the runs of a fold; none where it has no answer.
-std::optional<LogFactors> without(const Fold& fold, const MethodResult& result, const OdometryParameters& nominal) {
+std::optional<OdometryParameters> without(const Fold& fold, const MethodResult& result,
+                                          const OdometryParameters& nominal) {
   if (!result.method || !result.fit) return std::nullopt;
-  const auto& known = result.fit->left_out;
-  if (fold.run && !known.empty() && known[*fold.run]) return known[*fold.run];
+  const Fit& fit = *result.fit;
+  if (fold.run && !fit.left_out.empty() && fit.left_out[*fold.run]) {
+    OdometryParameters known = scaled(nominal, *fit.left_out[*fold.run]);
+    if (!fit.left_out_scrub.empty()) known.scrub = fit.left_out_scrub[*fold.run];
+    return known;
+  }
   try {
-    return result.method->fit(fold.others, nominal).factors;
+    return fitted_odometry(nominal, result.method->fit(fold.others, nominal));
   } catch (const NotApplicable&) {
     return std::nullopt;
   }
@@ -106,45 +111,96 @@ void leave_out(const Folds& folds, const OdometryParameters& nominal, std::vecto
   std::vector<Score> scores(results.size() * n);
   tbb::parallel_for(std::size_t(0), scores.size(), [&](std::size_t i) {
     const Fold& fold = folds.all[i % n];
-    const auto factors = without(fold, results[i / n], nominal);
-    scores[i].answered = factors.has_value();
-    const OdometryParameters odometry = factors ? scaled(nominal, *factors) : nominal;
+    const auto answer = without(fold, results[i / n], nominal);
+    scores[i].answered = answer.has_value();
+    const OdometryParameters odometry = answer.value_or(nominal);
     for (const TrainingRun& r : fold.left_out)
       scores[i].sum_mm += run_error(r, odometry).final_mm / double(fold.left_out.size());
   });
   for (std::size_t i = 0; i < scores.size(); ++i) {
     results[i / n].held_out_mm += scores[i].sum_mm / double(n);
+    results[i / n].fold_mm.push_back(scores[i].sum_mm);
     results[i / n].held_out_answers += scores[i].answered;
   }
 }
 
-std::pair<std::size_t, std::string> choose(const std::vector<MethodResult>& results, const Folds& folds) {
-  std::size_t best = 0, next = 0;
-  bool any = false;
-  for (std::size_t i = 1; i < results.size(); ++i) any = any || results[i].held_out_answers > 0;
-  const auto cost = [&](const MethodResult& r) {
-    if (any) return r.held_out_mm;
-    double sum = 0;
-    for (const MeanError& e : r.train) sum += e.final_mm / double(r.train.size());
-    return sum;
-  };
+namespace {
+
+bool any_answer(const std::vector<MethodResult>& results) {
+  return std::any_of(results.begin() + 1, results.end(), [](const MethodResult& r) { return r.held_out_answers > 0; });
+}
+
+// On the runs left out; where no run could be left out on those that it was fitted to.
+double cost_mm(const MethodResult& r, bool left_out) {
+  if (left_out) return r.held_out_mm;
+  double sum = 0;
+  for (const MeanError& e : r.train) sum += e.final_mm / double(r.train.size());
+  return sum;
+}
+
+// Whether the folds tell `other` from the better `best`: the mean of their differences is more than its standard error.
+bool told_apart(const MethodResult& best, const MethodResult& other) {
+  const double n = double(best.fold_mm.size());
+  if (n < 2) return other.held_out_mm > best.held_out_mm;
+  double mean = 0, squares = 0;
+  for (std::size_t i = 0; i < best.fold_mm.size(); ++i) mean += (other.fold_mm[i] - best.fold_mm[i]) / n;
+  for (std::size_t i = 0; i < best.fold_mm.size(); ++i)
+    squares += std::pow(other.fold_mm[i] - best.fold_mm[i] - mean, 2);
+  return mean > std::sqrt(squares / (n - 1) / n);
+}
+
+// Of the mean over the folds.
+double standard_error_mm(const MethodResult& r) {
+  const double n = double(r.fold_mm.size());
+  double squares = 0;
+  for (const double mm : r.fold_mm) squares += std::pow(mm - r.held_out_mm, 2);
+  return n < 2 ? 0 : std::sqrt(squares / (n - 1) / n);
+}
+
+// The best of all, and of those within its standard error (Breiman et al. 1984, section 3.4.3) the one that takes least
+// for exact: the last of the table. Runs of one course cannot tell what another course will ask for.
+std::pair<std::size_t, std::size_t> best_and_chosen(const std::vector<MethodResult>& results, bool left_out) {
+  std::size_t best = 0;
   for (std::size_t i = 1; i < results.size(); ++i) {
-    if (!results[i].fit) continue;
-    if (cost(results[i]) < cost(results[best])) {
-      next = best;
-      best = i;
-    } else if (next == best || cost(results[i]) < cost(results[next])) {
-      next = i;
-    }
+    if (results[i].fit && cost_mm(results[i], left_out) < cost_mm(results[best], left_out)) best = i;
   }
+  std::size_t chosen = best;
+  for (std::size_t i = best + 1; left_out && best > 0 && i < results.size(); ++i) {
+    if (results[i].fit && results[i].held_out_answers == results[best].held_out_answers &&
+        results[i].held_out_mm <= results[best].held_out_mm + standard_error_mm(results[best]))
+      chosen = i;
+  }
+  return {best, chosen};
+}
+
+}  // namespace
+
+std::pair<std::size_t, std::string> choose(const std::vector<MethodResult>& results, const Folds& folds) {
+  const bool left_out = any_answer(results);
+  const auto [best, chosen] = best_and_chosen(results, left_out);
+  const auto mm = [&](std::size_t i) { return fmt::format("{:.1f} mm", cost_mm(results[i], left_out)); };
   const std::string how =
-      any ? "runs that it had not seen (" + folds.said + ")"
-          : std::string("the runs that it was fitted to: no run could be left out, which proves little");
-  if (best == 0)
-    return {0, fmt::format("no method predicts {} better than the nominal odometry, {:.1f} mm", how, cost(results[0]))};
-  std::string why = fmt::format("ends {:.1f} mm from the truth in the mean on {}; nominal {:.1f} mm",
-                                cost(results[best]), how, cost(results[0]));
-  if (next != 0 && next != best) why += fmt::format(", next {} {:.1f} mm", results[next].name, cost(results[next]));
+      left_out ? "runs that it had not seen (" + folds.said + ")"
+               : std::string("the runs that it was fitted to: no run could be left out, which proves little");
+  if (best == 0) return {0, fmt::format("no method predicts {} better than the nominal odometry, {}", how, mm(0))};
+  // What the folds do not tell from nominal corrects nothing that is known to be wrong.
+  if (left_out && !told_apart(results[chosen], results[0]) && !told_apart(results[best], results[0]))
+    return {0,
+            fmt::format("{} ends {} from the truth in the mean on {}, which is not told from the nominal odometry, {}",
+                        results[best].name, mm(best), how, mm(0))};
+  std::string why = fmt::format("ends {} from the truth in the mean on {}; nominal {}", mm(chosen), how, mm(0));
+  if (chosen != best) {
+    return {chosen,
+            why + fmt::format(", {} {}, by less than a standard error; of methods that are as good the one that "
+                              "takes least for exact counts",
+                              results[best].name, mm(best))};
+  }
+  std::size_t next = 0;
+  for (std::size_t i = 1; i < results.size(); ++i) {
+    if (i == best || !results[i].fit) continue;
+    if (next == 0 || cost_mm(results[i], left_out) < cost_mm(results[next], left_out)) next = i;
+  }
+  if (next != 0) why += fmt::format(", next {} {}", results[next].name, mm(next));
   return {best, why};
 }
 

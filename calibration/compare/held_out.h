@@ -25,7 +25,7 @@ struct Folds {
 /// each half of all runs where no run was repeated.
 Folds folds_of(const Runs& runs);
 
-/// Fills `held_out_mm` and `held_out_answers` of every result.
+/// Fills `held_out_mm`, its errors fold by fold, and `held_out_answers` of every result.
 void leave_out(const Folds& folds, const OdometryParameters& nominal, std::vector<MethodResult>& results);
 
 /// The result to trust, by held-out errors, and why in words.

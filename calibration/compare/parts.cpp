@@ -8,7 +8,7 @@
 #include <set>
 
 #include "calibration/compare/heading_pieces.h"
-#include "calibration/methods/pieces.h"
+#include "calibration/methods/paths/pieces.h"
 
 namespace umbsim::calibration {
 namespace {

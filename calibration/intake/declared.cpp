@@ -105,8 +105,8 @@ void check_commands(const std::string& directory, const RecordedRun& run, const 
 void check_path(const std::string& directory, const RecordedRun& run, const Recording& recording) {
   const RecordedPath& path = recording.path;
   const double turned = counted(run, recording.robot).turn_rad;
-  if (path.shape != "free" && run.direction != "free" && std::abs(turned) > 3 &&
-      (turned > 0) != (run.direction == "ccw")) {
+  const bool one_sense = path.shape == "square" || path.shape == "circle";
+  if (one_sense && run.direction != "free" && std::abs(turned) > 3 && (turned > 0) != (run.direction == "ccw")) {
     refuse(
         directory, run,
         fmt::format("its direction is {}, but the robot turned {} by {:.0f} degrees: set direction: {}.", run.direction,

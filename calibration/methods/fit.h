@@ -14,6 +14,8 @@ namespace umbsim::calibration {
 using LogFactors = Eigen::Vector3d;
 
 OdometryParameters scaled(const OdometryParameters& nominal, const LogFactors& factors);
+/// With the fit's scrub, if it has one.
+OdometryParameters fitted_odometry(const OdometryParameters& nominal, const struct Fit& fit);
 LogFactors log_factors(const OdometryParameters& odometry, const OdometryParameters& nominal);
 
 /// A number with its two-sided 95 % interval; not finite where none is known.
@@ -40,6 +42,12 @@ struct TrackerFit {
   double clock_rate = 0;
 };
 
+/// Covariance of the factors that one kind of runs brings about, with its degrees of freedom.
+struct CovariancePart {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  double degrees_of_freedom = 0;
+};
+
 /// What a method says of the robot.
 struct Fit {
   LogFactors factors = LogFactors::Zero();
@@ -48,10 +56,13 @@ struct Fit {
   std::optional<WheelNoise> noise;
   std::vector<TrackerFit> trackers;
   std::vector<std::string> warnings;  ///< assumptions that these data break, and what could not be fitted
-  /// Of the factors, with the degrees of freedom behind each; filled by the method or by `with_interval`.
-  std::optional<Eigen::Matrix3d> covariance;
-  double degrees_of_freedom = 0;
+  /// By which the answer misses even without noise, computed from the answer: intervals reach that much further.
+  std::optional<LogFactors> own_bias;
+  /// Of the factors, a sum over kinds of runs; empty: not known. Filled by the method or by `with_interval`.
+  std::vector<CovariancePart> covariance;
   std::vector<std::optional<LogFactors>> left_out;  ///< the answer without each run, where it was found
+  std::optional<Estimate> scrub;                    ///< of `OdometryParameters`, where the method fits it
+  std::vector<double> left_out_scrub;               ///< the same without each run; empty: none
 };
 
 /// A method's assumptions do not hold for the data, in words: it has no answer.
@@ -70,6 +81,17 @@ struct FitFigures {
   Estimate right_radius_m;
   Estimate wheelbase_m;
 };
+
+/// Variance of gradient . factors with the degrees of freedom behind it (Satterthwaite 1946): each figure has its own,
+/// for what differs between cw and ccw runs weighs otherwise in each.
+struct Spread {
+  double variance = 0;
+  double degrees_of_freedom = 0;
+};
+Spread spread(const std::vector<CovariancePart>& parts, const Eigen::Vector3d& gradient);
+
+/// Gradients of log E_d, log E_b and the log mean radius by the factors.
+inline const Eigen::Vector3d kEd{-1, 1, 0}, kEb{-0.5, -0.5, 1}, kMeanRadius{0.5, 0.5, 0};
 
 FitFigures figures(const Fit& fit, const OdometryParameters& nominal);
 

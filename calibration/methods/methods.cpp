@@ -1,11 +1,11 @@
 #include "calibration/methods/methods.h"
 
-#include "calibration/methods/circles.h"
 #include "calibration/methods/jackknife.h"
-#include "calibration/methods/kelly.h"
-#include "calibration/methods/least_squares.h"
-#include "calibration/methods/likelihood.h"
-#include "calibration/methods/squares.h"
+#include "calibration/methods/likelihood/likelihood.h"
+#include "calibration/methods/paths/circles.h"
+#include "calibration/methods/paths/kelly.h"
+#include "calibration/methods/paths/least_squares.h"
+#include "calibration/methods/squares/squares.h"
 
 namespace umbsim::calibration {
 
@@ -28,7 +28,10 @@ const std::vector<Method>& methods() {
        "clock and marker errors; with end points of closed paths only, the mean radius", fit_kelly},
       {"likelihood", "maximum likelihood on whole tracks", "Kalman innovations; Ceres",
        "white tracker noise, random walk of the wheels; one radius and wheelbase throughout",
-       "with end points only: tracker frame, marker and clock; of closed paths, the mean radius", fit_likelihood}};
+       "with end points only: tracker frame, marker and clock; of closed paths, the mean radius", fit_likelihood},
+      {"scrub", "the same, with tyres that creep against turning", "Kalman innovations; Ceres",
+       "white tracker noise, random walk of the wheels; a moment against turning that does not depend on speed",
+       "scrub beside the wheelbase, where turns in place or arcs of one radius are all there is", fit_scrub}};
   return all;
 }
 

@@ -14,6 +14,7 @@ struct TrainingRun {
   const RecordedRun* run = nullptr;
   std::size_t recording_index = 0;
   std::string condition;  ///< recording, direction and what else the run was driven with: runs alike share it
+  double weight = 1;      ///< runs like it that it stands for
 
   bool tracked() const { return recording->truth_kind == "track" && run->truth.size() > 2; }
   const std::string& shape() const { return recording->path.shape; }

@@ -138,8 +138,10 @@ double side_of(const json& umbmark, const CalibratedOdometry& c) {
 void read_calibration(const fs::path& folder, Result& r) {
   const json j = read_json(folder / "calibration.json");
   CalibratedOdometry c;
-  c.method = j.value("method", "heading");
-  const json& o = j.at("odometry");
+  // The formats know radii and a wheelbase only.
+  const bool scrubs = j.contains("without_scrub");
+  c.method = (scrubs ? j["without_scrub"] : j).value("method", "heading");
+  const json& o = (scrubs ? j["without_scrub"] : j).at("odometry");
   c.calibrated = {o.at("left_radius_m"), o.at("right_radius_m"), o.at("wheelbase_m"), 0};
   c.nominal = nominal_of(j, r, c);
   from_methods(j, c);

@@ -26,12 +26,12 @@ std::vector<Pose2> begun_right(const Model& model, std::size_t r, const std::vec
   return result;
 }
 
-// Every `stride`th position and the last one.
+// Every `stride`th pose and the last one.
 Json thinned(const std::vector<Pose2>& track, std::size_t stride) {
   Json points = Json::array();
   for (std::size_t k = 0; k < track.size(); ++k) {
     if (k % stride != 0 && k + 1 != track.size()) continue;
-    points.push_back({rounded(track[k].x_m), rounded(track[k].y_m)});
+    points.push_back({rounded(track[k].x_m), rounded(track[k].y_m), rounded(track[k].theta_rad)});
   }
   return points;
 }
@@ -74,6 +74,10 @@ Json tracks_json(const Model& model, const Diagnosis& d) {
               {"before", thinned(before, stride)},
               {"parts", parts(d, run.id, stride)},
               {"end", {{"before", end_error(run, before)}}}};
+    item["time_s"] = Json::array();
+    for (std::size_t k = 0; k < run.truth.size(); ++k) {
+      if (k % stride == 0 || k + 1 == run.truth.size()) item["time_s"].push_back(rounded(run.truth[k].time_s));
+    }
     if (twin) {
       const std::vector<Pose2> after = begun_right(model, r, d.twin.predicted.tracks[r]);
       item["after"] = thinned(after, stride);

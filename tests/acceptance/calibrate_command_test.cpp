@@ -55,7 +55,7 @@ TEST(CalibrateCommand, TheDefaultFolderIsNamedAfterTheRecording) {
   ASSERT_EQ(desk.umbsim({"run", "short.yaml"}).code, 0);
   const Outcome calibrate = desk.umbsim({"calibrate", "results/short/"});
   ASSERT_EQ(calibrate.code, 0) << calibrate.err;
-  EXPECT_EQ(listing(desk.home / "results"), (std::set<std::string>{"latest", "short", "short-calibration"}));
+  EXPECT_EQ(listing(desk.home / "results"), (std::set<std::string>{"index.html", "latest", "short", "short-calibration"}));
 }
 
 // calibration.yaml goes into a scenario as it is, and the squares then close.
@@ -117,8 +117,50 @@ TEST(CalibrateCommand, SeveralRecordingsAndEveryMethodInOneTable) {
   expect_says(outcome.out, {"endpoint", "iterated", "heading", "least-squares", "kelly", "likelihood", "no answer",
                             "cannot be seen", "Winner: ", "[2] b"});
   const json c = json_of(desk.home / "c/calibration.json").at("comparison");
-  EXPECT_EQ(c.at("methods").size(), 8u) << "nominal and seven";
+  EXPECT_EQ(c.at("methods").size(), 9u) << "nominal and eight";
   EXPECT_EQ(c.at("folds"), 2);
+}
+
+// Everything that a page of the calibration draws.
+TEST(CalibrateCommand, HoldsReturnErrorsAndResidualsBeforeAndAfter) {
+  const Desk desk;
+  desk.put("short.yaml", kShortScenario);
+  ASSERT_EQ(desk.umbsim({"run", "short.yaml", "--out", "a"}).code, 0);
+  ASSERT_EQ(desk.umbsim({"calibrate", "a", "--out", "c"}).code, 0);
+  const json c = json_of(desk.home / "c/calibration.json");
+  ASSERT_EQ(c.at("squares").size(), 1u);
+  const json& squares = c.at("squares")[0];
+  for (const char* when : {"before", "after"}) {
+    for (const char* direction : {"cw", "ccw"}) {
+      const json& errors = squares.at(when).at(direction).at("errors");
+      EXPECT_EQ(errors.size(), squares.at(when).at(direction).at("runs").get<std::size_t>());
+    }
+  }
+  EXPECT_EQ(squares.at("before").at("e_max_syst_m"), c.at("umbmark").at("e_max_syst_m"));
+  ASSERT_FALSE(c.at("runs").empty());
+  for (const json& run : c.at("runs")) {
+    const std::size_t n = run.at("time_s").size();
+    EXPECT_LE(n, 100u);
+    for (const char* part : {"tracked", "before", "after"}) {
+      for (const char* column : {"x_m", "y_m", "theta_rad"}) EXPECT_EQ(run.at(part).at(column).size(), n);
+    }
+    EXPECT_TRUE(run.at("final_mm").contains("nominal"));
+  }
+}
+
+// Each new course from the scenario to a calibration by what it is made for.
+TEST(CalibrateCommand, CalibratesOnEveryShapeOfCourse) {
+  const Desk desk;
+  for (const auto& [scenario, method] :
+       {std::pair{"circle", "circles"}, std::pair{"figure_eight", "circles"}, std::pair{"waypoints", "kelly"}}) {
+    ASSERT_EQ(desk.umbsim({"run", scenario, "--out", scenario}).code, 0);
+    const std::string out = std::string(scenario) + "-c";
+    const Outcome outcome = desk.umbsim({"calibrate", scenario, "--method", method, "--out", out});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const json o = json_of(desk.home / out / "calibration.json").at("odometry");
+    EXPECT_NEAR(o.at("wheelbase_m").get<double>(), 0.340 * (1 - 0.0113), 0.001) << scenario;
+    EXPECT_NEAR(o.at("right_radius_m").get<double>() / o.at("left_radius_m").get<double>(), 1.00084, 5e-4) << scenario;
+  }
 }
 
 // What limits the answer without making it wrong is said, not refused.

@@ -30,7 +30,7 @@ TEST(CommandLine, UnknownSubcommandListsTheKnown) {
   const Outcome outcome = Desk().umbsim({"calibrat"});
   EXPECT_EQ(outcome.code, kBadInput);
   EXPECT_EQ(outcome.out, "");
-  expect_says(outcome.err, {"unknown subcommand 'calibrat'", "did you mean 'calibrate'?", "run, import, calibrate, export, list, robot, effects"});
+  expect_says(outcome.err, {"unknown subcommand 'calibrat'", "did you mean 'calibrate'?", "run, import, calibrate, export, report, list, robot, effects"});
 }
 
 TEST(CommandLine, MistakesAreUsageErrors) {

@@ -37,7 +37,7 @@ TEST_F(DefaultFolder, EveryRunGetsTheNextOne) {
     EXPECT_EQ(seed("latest"), n);
   }
   EXPECT_TRUE(files_of(results("short")) == before);
-  EXPECT_EQ(listing(results("")), (std::set<std::string>{"latest", "short", "short-2", "short-3"}));
+  EXPECT_EQ(listing(results("")), (std::set<std::string>{"index.html", "latest", "short", "short-2", "short-3"}));
 }
 
 TEST_F(DefaultFolder, ForceReplacesTheFirst) {
@@ -66,7 +66,7 @@ TEST_F(DefaultFolder, AFailedRunMovesNothing) {
   EXPECT_EQ(desk_.shell(limited).code, kRunFailed);
   EXPECT_EQ(run({"--set", "course.side_m=-1"}).code, kBadInput);
   EXPECT_EQ(latest(), "short");
-  EXPECT_EQ(listing(results("")), (std::set<std::string>{"latest", "short"}));
+  EXPECT_EQ(listing(results("")), (std::set<std::string>{"index.html", "latest", "short"}));
 }
 
 TEST_F(DefaultFolder, ManyAtOnceLoseNothing) {
@@ -79,7 +79,7 @@ TEST_F(DefaultFolder, ManyAtOnceLoseNothing) {
   std::set<int> seeds;
   for (int n = 1; n <= 6; ++n) seeds.insert(seed(n == 1 ? "short" : "short-" + std::to_string(n)));
   EXPECT_EQ(seeds, (std::set<int>{1, 2, 3, 4, 5, 6}));
-  EXPECT_EQ(listing(results("")).size(), 7u) << "and `latest`";
+  EXPECT_EQ(listing(results("")).size(), 8u) << "and `latest`, and the list of results";
 }
 
 TEST_F(DefaultFolder, LatestAndReferenceAreNobodysFolders) {

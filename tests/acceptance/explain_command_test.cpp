@@ -20,7 +20,7 @@ TEST(ExplainCommand, WritesAFolderWhereItIsAskedTo) {
   const std::vector<std::string> words{"explain", "short.yaml", "--out", "a"};
   ASSERT_EQ(desk.umbsim(words).code, 0);
   EXPECT_EQ(listing(desk.home / "a"),
-            (std::set<std::string>{"explain.json", "labmate.urdf", "provenance.json", "scenario.resolved.yaml"}));
+            (std::set<std::string>{"explain.json", "labmate.urdf", "provenance.json", "report.html", "scenario.resolved.yaml"}));
   const json e = json_of(desk.home / "a/explain.json");
   EXPECT_EQ(e.at("format"), "umbsim-explanation/1");
   ASSERT_EQ(e.at("effects").size(), 1u);

@@ -27,6 +27,7 @@ class Launcher : public testing::Test {
     for (const char* name : {"umbsim", "CMakePresets.json"}) fs::copy(source / name, project_ / name);
     fs::create_directory(project_ / "cmake");
     for (const char* name : {"cmake/setup.sh", "cmake/WriteCommit.cmake"}) fs::copy(source / name, project_ / name);
+    put_fetch("true");
     put(".gitignore", "/build/\n");
     put("README.md", "read me\n");
     put("CMakeLists.txt",
@@ -64,6 +65,14 @@ done
   void put_main(const std::string& word, const std::string& check) const {
     put("core/main.sh", "#!/bin/sh\nif [ \"$1\" = check ]; then " + check + "; exit; fi\necho says " + word +
                             " \"$@\"\ntail -n 1 \"$0\"\nexit 0\n");
+  }
+  /// What the packages of the pages come by.
+  void put_fetch(const std::string& command) const {
+    put("report/web/fetch.sh", "#!/bin/sh\n" + command + "\n");
+    fs::permissions(project_ / "report/web/fetch.sh", fs::perms::owner_all);
+  }
+  std::string cached(const std::string& option) const {
+    return in_project("grep -o '" + option + ":[A-Z]*=.*' build/release/CMakeCache.txt | sed 's/.*=//'").out;
   }
   void put_tool(const std::string& name, const std::string& text) const {
     desk_.put("bin/" + name,
@@ -163,6 +172,22 @@ TEST_F(Launcher, TheProgramKnowsItsCommit) {
   forget_calls();
   launch();
   EXPECT_EQ(calls(), "");
+}
+
+TEST_F(Launcher, WhereNpmCannotBeReachedTheProgramIsBuiltWithoutPages) {
+  EXPECT_EQ(cached("UMBSIM_PAGES"), "ON\n");
+  put_fetch("echo 'npm ERR! network' >&2; exit 1");
+  put_main("plain", "true");
+  const Outcome without = launch();
+  EXPECT_EQ(without.code, 0) << without.err;
+  expect_says(without.out, {"says plain"});
+  expect_says(without.err, {"umbsim: npm cannot be reached: the program is built without pages", "npm.log"});
+  EXPECT_EQ(std::count(without.err.begin(), without.err.end(), '\n'), 1) << without.err;
+  EXPECT_EQ(cached("UMBSIM_PAGES"), "OFF\n");
+  put_fetch("true");
+  put_main("with pages", "true");
+  EXPECT_EQ(launch().err, "");
+  EXPECT_EQ(cached("UMBSIM_PAGES"), "ON\n");
 }
 
 TEST_F(Launcher, AFailedBuildIsToldAndTriedAgain) {

@@ -59,7 +59,7 @@ TEST_F(OutputFolder, CalibrateKeepsTheSameRules) {
   EXPECT_EQ(desk_.umbsim({"calibrate", "a", "--out", "c"}).code, kBadInput);
   EXPECT_EQ(desk_.umbsim({"calibrate", "a", "--out", "c", "--force"}).code, 0);
   EXPECT_EQ(names_of(files_of(desk_.home / "c")),
-            (std::set<std::string>{"calibration.yaml", "calibration.json", "provenance.json"}));
+            (std::set<std::string>{"calibration.yaml", "calibration.json", "provenance.json", "report.html"}));
   EXPECT_EQ(listing(desk_.home), (std::set<std::string>{"a", "c", "short.yaml"}));
 }
 

@@ -63,7 +63,7 @@ TEST_P(ShippedScenario, WritesTheDocumentedFolder) {
   EXPECT_EQ(run.err, "") << "quiet in a pipe";
   expect_says(run.out, {"E_max,syst", "results/" + std::string(s.name) + "/report.html"});
   EXPECT_EQ(listing(desk.home), std::set<std::string>{"results"});
-  EXPECT_EQ(listing(desk.home / "results"), (std::set<std::string>{"latest", s.name}));
+  EXPECT_EQ(listing(desk.home / "results"), (std::set<std::string>{"index.html", "latest", s.name}));
 
   const fs::path folder = desk.home / "results" / s.name;
   EXPECT_EQ(names_of(files_of(folder)), documented_files(s));

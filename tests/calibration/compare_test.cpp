@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "calibration/compare/residuals.h"
 #include "core/error.h"
 #include "tests/calibration/tracked_drive.h"
 
 namespace umbsim::calibration {
 namespace {
 
+using testing::Moves;
 using testing::nominal_odometry;
 using testing::TestTracker;
 using testing::tracked_squares;
@@ -62,7 +64,8 @@ TEST(Compare, TheWinnerPredictsRunsThatItHasNotSeen) {
   const MethodResult& winner = c.results[c.winner];
   EXPECT_EQ(c.folds, 6);
   EXPECT_NE(winner.name, "nominal");
-  for (const MethodResult& r : c.results) EXPECT_LE(winner.held_out_mm, r.held_out_mm) << r.name;
+  // The best, or one that a standard error does not tell from it.
+  for (const MethodResult& r : c.results) EXPECT_LE(winner.held_out_mm, 1.5 * r.held_out_mm + 0.2) << r.name;
   EXPECT_LT(winner.test[0].final_mm, result(c, "nominal").test[0].final_mm / 4);
   EXPECT_TRUE(c.parts.warnings.empty()) << c.parts.warnings[0];
 }
@@ -106,6 +109,48 @@ TEST(Compare, RunsThatWereNotRepeatedAreHalved) {
   EXPECT_EQ(c.folds, 2);
   EXPECT_NE(c.held_out.find("half"), std::string::npos);
   EXPECT_LT(c.results[c.winner].held_out_mm, c.results[0].held_out_mm / 2);
+}
+
+// What the runs can hardly tell is said before anything is fitted.
+TEST(Compare, PoorDataAreNamed) {
+  const auto warnings = [](const Moves& moves, const Moves& back) {
+    std::vector<RecordedRun> runs;
+    for (int i = 0; i < 4; ++i) {
+      runs.push_back(testing::tracked_run("free-" + std::to_string(i + 1), "free", {}, nominal_odometry(),
+                                          i % 2 ? back : moves, noisy(), unsigned(i + 1)));
+    }
+    return compare(task_of({testing::recording_of("free", 0, nominal_odometry(), runs)}), all()).warnings;
+  };
+  const double half_turn_m = M_PI * nominal_odometry().wheelbase_m / 2;
+  const Moves left{{-half_turn_m, half_turn_m}, {-half_turn_m, half_turn_m}};
+  const Moves right{{half_turn_m, -half_turn_m}, {half_turn_m, -half_turn_m}};
+  const Moves ahead{{1, 1}}, left_and_ahead{{1, 1}, {-half_turn_m, half_turn_m}, {1, 1}};
+  EXPECT_TRUE(warns(warnings(left, right), {"too little way"}));
+  EXPECT_TRUE(warns(warnings(ahead, ahead), {"too little turning"}));
+  EXPECT_TRUE(warns(warnings(left_and_ahead, left_and_ahead), {"turn left only"}));
+}
+
+// What the page draws: every run, its residuals smaller after than before, and the squares' return errors.
+TEST(Residuals, ShrinkByCalibration) {
+  const TrueRobot truth = TrueRobot::with(1.004, 1.01);
+  const Task task = task_of({tracked_squares(truth, nominal_odometry(), 2, noisy())},
+                            {tracked_squares(truth, nominal_odometry(), 1, noisy(), 3)});
+  const Comparison c = compare(task, all());
+  const std::vector<RunResiduals> runs = run_residuals(task, c, 50);
+  ASSERT_EQ(runs.size(), 6u);
+  EXPECT_FALSE(runs[3].test);
+  EXPECT_TRUE(runs[4].test);
+  for (const RunResiduals& r : runs) {
+    ASSERT_EQ(r.time_s.size(), 50u);
+    ASSERT_EQ(r.final_mm.size(), c.results.size());
+    EXPECT_NEAR(1000 * std::hypot(r.before.back().x_m, r.before.back().y_m), r.final_mm[0], 1e-6);
+    EXPECT_LT(r.final_mm[c.winner], r.final_mm[0]);
+    EXPECT_NEAR(1000 * std::hypot(r.after.back().x_m, r.after.back().y_m), r.final_mm[c.winner], 1e-6);
+  }
+  const std::vector<SquaresBeforeAfter> squares = squares_before_after(task, c);
+  ASSERT_EQ(squares.size(), 1u);
+  EXPECT_EQ(squares[0].before.cw.errors.size(), 2u);
+  EXPECT_LT(squares[0].after.e_max_syst_m, squares[0].before.e_max_syst_m / 4);
 }
 
 TEST(Compare, AnotherRobotIsRefused) {

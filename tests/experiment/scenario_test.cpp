@@ -189,5 +189,39 @@ TEST(Scenario, InjectedErrorsAreThoseOfTheFile) {
   EXPECT_NEAR(injected.e_b, 336.17 / 340, 1e-15);
 }
 
+TEST(Scenario, ShapesOfTheCourseAreReadAndWritten) {
+  for (const std::string course :
+       {"{shape: circle, radius_m: 0.75}", "{shape: figure_eight, radius_m: 2, laps: 3}",
+        "{shape: path, waypoints_m: [[2, 0], [2, 1.5], [0, 0]], turn: arc, turn_radius_m: 0.3}"}) {
+    const Scenario s = read(kFormat + "course: " + course + "\n");
+    EXPECT_EQ(s.calibration.method, Calibrate::none) << "UMBmark is of squares";
+    const std::string resolved = resolved_yaml(s);
+    EXPECT_EQ(resolved_yaml(read(resolved)), resolved);
+    EXPECT_NE(resolved.find("shape: " + s.course.shape), std::string::npos);
+  }
+  const Scenario path = read(kFormat + "course: {shape: path, waypoints_m: [[2, -1]]}\n");
+  ASSERT_EQ(path.course.waypoints.size(), 1u);
+  EXPECT_EQ(path.course.waypoints[0].y_m, -1);
+}
+
+TEST(Scenario, CoursesThatCannotBeDrivenAreRefused) {
+  const auto refused = [](const std::string& text, const std::vector<std::string>& parts) {
+    expect_refused(kFormat + text + "\n", parts);
+  };
+  refused("course: {shape: circle, radius_m: 0}", {"case.yaml:2:", "course.radius_m", "> 0"});
+  refused("course: {shape: circle, radius_m: -1}", {"course.radius_m", "-1"});
+  refused("course: {radius_m: 1}", {"course.radius_m", "only of shape circle or figure_eight"});
+  refused("course: {shape: circle, waypoints_m: [[1, 0]]}", {"course.waypoints_m", "only of shape path"});
+  refused("course: {shape: path}", {"waypoints_m", "needs waypoints"});
+  refused("course: {shape: path, waypoints_m: [[1, 0], [1, 0.001]]}", {"course.waypoints_m", "waypoint 2", "0.001", "0.01"});
+  refused("course: {shape: path, waypoints_m: [[1]]}", {"course.waypoints_m[0]", "two numbers"});
+  refused("course: {shape: path, waypoints_m: [[1, 0], [1, 0.2], [0, 0]], turn: arc, turn_radius_m: 0.3}",
+          {"course.turn_radius_m", "does not fit"});
+  refused("course: {shape: oval}", {"course.shape", "oval", "figure_eight"});
+  refused("course: {shape: circle}\nbumps: {count: 3}", {"bumps", "squares only"});
+  refused("course: {shape: circle}\ncalibration: {method: heading}", {"calibration.method", "none"});
+  refused("course: {shape: figure_eight}\nfixes: [{leg: 3}]", {"fixes", "leg"});
+}
+
 }  // namespace
 }  // namespace umbsim

@@ -49,8 +49,8 @@ void expect_valid_outputs(const ExperimentResult& r) {
   expect_finite(summary, "summary");
   expect_finite(report, "report");
   EXPECT_EQ(Json::parse(summary.dump()), summary);
-  const std::string page = render_report(report);
-  EXPECT_NE(page.find("</html>"), page.npos);
+  const std::string page = render_report(PageKind::run, report);
+  EXPECT_EQ(page.find("</html>") != page.npos, has_pages());
 }
 
 // Without anything that tells left from right, the squares are mirror images, but for what encoders cannot resolve.

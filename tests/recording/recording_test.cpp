@@ -18,7 +18,7 @@ Recording full_recording() {
   recording.title = "Square: \"4 m\" #1, 50 \\ % of\nspeed";
   recording.source = "null";
   recording.robot = {"labmate.urdf", 0.075, 0.34, 2796.8};
-  recording.path = {"square", 4, "arc", 0.4, 0.2, 0.7, 0.25, 1.5};
+  recording.path = {"square", 4, {}, {}, "arc", 0.4, 0.2, 0.7, 0.25, 1.5};
   recording.encoder_rate_hz = 50;
   recording.truth_position_sd_m = 3e-5;
   recording.truth_heading_sd_rad = 0.0003;
@@ -111,6 +111,29 @@ TEST(Recording, WriteThenReadIsTheSame) {
   EXPECT_EQ(read.truth_heading_sd_rad, written.truth_heading_sd_rad);
   ASSERT_EQ(read.runs.size(), written.runs.size());
   for (std::size_t i = 0; i < read.runs.size(); ++i) expect_same_run(read.runs[i], written.runs[i]);
+}
+
+TEST(Recording, CirclesAndPathsKeepWhatWasDriven) {
+  for (const char* shape : {"circle", "figure_eight", "path"}) {
+    const Folder folder;
+    Recording written = full_recording();
+    written.path = {};
+    written.path.shape = shape;
+    if (std::string(shape) == "path") {
+      written.path.waypoints = {{2, 0}, {1.5, -0.25}};
+    } else {
+      written.path.radius_m = 0.75;
+    }
+    write_recording(written, folder.path());
+    const RecordedPath read = read_recording(folder.path()).path;
+    expect_same_path(read, written.path);
+    EXPECT_EQ(read.radius_m, written.path.radius_m);
+    ASSERT_EQ(read.waypoints.size(), written.path.waypoints.size());
+    for (std::size_t i = 0; i < read.waypoints.size(); ++i) {
+      EXPECT_EQ(read.waypoints[i].x_m, written.path.waypoints[i].x_m);
+      EXPECT_EQ(read.waypoints[i].y_m, written.path.waypoints[i].y_m);
+    }
+  }
 }
 
 TEST(Recording, WrittenAgainTheBytesAreTheSame) {

@@ -180,5 +180,110 @@ TEST(Driver, StandsStillAtTheEnd) {
   EXPECT_NEAR(w.right_radps, 0, kRoundOff);
 }
 
+Course circle_course(const char* shape, double radius_m) {
+  Course c;
+  c.shape = shape;
+  c.radius_m = radius_m;
+  return c;
+}
+
+Course path_course(std::vector<Waypoint> waypoints, const char* turn = "in_place", double turn_radius_m = 0.3) {
+  Course c;
+  c.shape = "path";
+  c.waypoints = std::move(waypoints);
+  c.turn = turn;
+  c.turn_radius_m = turn_radius_m;
+  return c;
+}
+
+TEST(Shapes, ACircleLiesOnTheSideOfItsDirection) {
+  for (const Direction direction : {Direction::cw, Direction::ccw}) {
+    const double sense = direction == Direction::ccw ? 1 : -1;
+    const Plan plan(circle_course("circle", 0.75), direction);
+    for (double t = 0; t < plan.duration_s(); t += 0.5) {
+      const Pose2 p = plan.at(t).X_SB;
+      EXPECT_NEAR(std::hypot(p.x_m, p.y_m - sense * 0.75), 0.75, kRoundOff);
+    }
+    const Pose2 end = plan.at(plan.duration_s()).X_SB;
+    EXPECT_NEAR(std::hypot(end.x_m, end.y_m), 0, kRoundOff);
+    EXPECT_NEAR(end.theta_rad, sense * 2 * M_PI, kRoundOff);
+  }
+}
+
+TEST(Shapes, AnEightComesBackWithTheHeadingOfItsStart) {
+  const Plan plan(circle_course("figure_eight", 0.75), Direction::ccw);
+  ASSERT_EQ(plan.segments().size(), 2u);
+  const Segment& second = plan.segments()[1];
+  const Pose2 left = plan.at(plan.segments()[0].duration_s / 2).X_SB;
+  const Pose2 right = plan.at(second.start_s + second.duration_s / 2).X_SB;
+  EXPECT_NEAR(left.y_m, 1.5, kRoundOff);
+  EXPECT_NEAR(right.y_m, -1.5, kRoundOff);
+  const Pose2 end = plan.at(plan.duration_s()).X_SB;
+  EXPECT_NEAR(std::hypot(end.x_m, end.y_m), 0, kRoundOff);
+  EXPECT_NEAR(end.theta_rad, 0, kRoundOff);
+}
+
+TEST(Shapes, APathPassesItsWaypointsAndIsMirroredForCw) {
+  Course c = path_course({{2, 0}, {2, 1}, {-1, 1}, {0, 0}});
+  c.laps = 2;
+  for (const Direction direction : {Direction::cw, Direction::ccw}) {
+    const double sense = direction == Direction::ccw ? 1 : -1;
+    const Plan plan(c, direction);
+    for (int leg = 1; leg <= 8; ++leg) {
+      const Segment& s = plan.segments()[plan.leg_segment(leg).value()];
+      const Pose2 p = plan.at(s.start_s + s.duration_s).X_SB;
+      const Waypoint& to = c.waypoints[std::size_t(leg - 1) % 4];
+      EXPECT_NEAR(p.x_m, to.x_m, kRoundOff) << leg;
+      EXPECT_NEAR(p.y_m, sense * to.y_m, kRoundOff) << leg;
+    }
+    EXPECT_FALSE(plan.leg_segment(9));
+  }
+}
+
+// Corners are cut: an arc of radius r takes r tan(turn / 2) of the legs at either side.
+TEST(Shapes, ArcsTouchBothLegsOfAPath) {
+  const Plan plan(path_course({{2, 0}, {2, 2}}, "arc"), Direction::ccw);
+  ASSERT_EQ(plan.segments().size(), 3u);
+  EXPECT_NEAR(plan.segments()[0].length_m, 1.7, kRoundOff);
+  EXPECT_NEAR(plan.segments()[1].length_m, 0.3 * M_PI / 2, kRoundOff);
+  EXPECT_NEAR(plan.segments()[2].length_m, 1.7, kRoundOff);
+  const Pose2 end = plan.at(plan.duration_s()).X_SB;
+  EXPECT_NEAR(end.x_m, 2, kRoundOff);
+  EXPECT_NEAR(end.y_m, 2, kRoundOff);
+}
+
+TEST(Shapes, WhatCannotBeDrivenIsNamed) {
+  EXPECT_EQ(problem_of(path_course({})).key, "waypoints_m");
+  EXPECT_EQ(problem_of(path_course({{1, 0}, {1, 0.001}})).key, "waypoints_m");
+  EXPECT_EQ(problem_of(path_course({{0, 0}})).key, "waypoints_m") << "the start itself";
+  EXPECT_EQ(problem_of(path_course({{1, 0}, {1, 0.2}, {0, 0.2}}, "arc")).key, "turn_radius_m");
+  EXPECT_EQ(problem_of(path_course({{1, 0}, {0, 0}}, "arc")).key, "turn_radius_m") << "straight back";
+  EXPECT_EQ(problem_of(path_course({{1, 0}, {1, 1}}, "arc")).key, "");
+  Course again = path_course({{1, 0}, {1, 0.001}});
+  again.waypoints.pop_back();
+  again.laps = 2;  // the second lap begins where it ends
+  EXPECT_EQ(problem_of(again).key, "waypoints_m");
+}
+
+// A robot whose wheelbase is E_b times what it believes drives the believed circle of radius R: its own is E_b R, swept
+// by 2 pi / E_b. It ends 2 E_b R sin(pi / E_b) from where it thinks it is, at the start.
+TEST(Shapes, ACircleWithAWrongWheelbaseMissesByTheClosedForm) {
+  constexpr double kRadius_m = 1, kEb = 1.02, kWheelbase_m = 0.34;
+  const Plan plan(circle_course("circle", kRadius_m), Direction::ccw);
+  const DriveGeometry believed{0.075, 0.075, kWheelbase_m};
+  PlanePose thought, robot;
+  const double period_s = 0.02;
+  for (int k = 0; k * period_s < plan.duration_s(); ++k) {
+    const Pose2 X_SB{thought.p.real(), thought.p.imag(), thought.heading};
+    const WheelSpeeds w = drive(plan, k * period_s, period_s, X_SB, believed, 0);
+    const double left_m = w.left_radps * period_s * 0.075, right_m = w.right_radps * period_s * 0.075;
+    thought.roll(left_m, right_m, kWheelbase_m);
+    robot.roll(left_m, right_m, kEb * kWheelbase_m);
+  }
+  EXPECT_NEAR(std::abs(thought.p), 0, 1e-6) << "its own odometry closes the circle";
+  EXPECT_NEAR(std::abs(robot.p), 2 * kEb * kRadius_m * std::abs(std::sin(M_PI / kEb)), 1e-5);
+  EXPECT_NEAR(robot.heading, 2 * M_PI / kEb, 1e-6);
+}
+
 }  // namespace
 }  // namespace umbsim
