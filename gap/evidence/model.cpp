@@ -59,7 +59,7 @@ bool Fit::is_local() const {
 
 Model::Model(const Campaign& campaign, Simulator simulator, const Scatter& scatter,
              const std::optional<NoiseModel>& known)
-    : campaign_(campaign), simulator_(std::move(simulator)), scatter_(scatter) {
+    : campaign_(campaign), simulator_(std::move(simulator)), scatter_(scatter), noises_(campaign.parts.size()) {
   const Recording& all = recording();
   const Recording& lead = campaign.parts[leading_part(campaign)];
   const double step = count_step(lead);
@@ -81,8 +81,8 @@ Model::Model(const Campaign& campaign, Simulator simulator, const Scatter& scatt
   const double periods = std::exp(measured_.habits[3]);  // between two samples
   for (std::size_t i = 0; i < campaign.parts.size(); ++i) {
     const NominalReplay part = part_of(nominal_, campaign, i);
-    noises_.push_back(known ? NoiseEstimate{*known, false, {}}
-                            : estimate_noise(part, least_noise(part, periods / campaign.parts[i].encoder_rate_hz)));
+    noises_[i] = known ? NoiseEstimate{*known, false, {}}
+                       : estimate_noise(part, least_noise(part, periods / campaign.parts[i].encoder_rate_hz));
   }
   replicated_ = std::all_of(noises_.begin(), noises_.end(), [](const NoiseEstimate& n) { return n.replicated; });
   if (roughness_under({}) != 0) {

@@ -188,7 +188,7 @@ class Model {
   Predicted without_effects_;
   Habits habits_sd_{};  // with which they are measured
   NominalReplay nominal_;
-  std::vector<NoiseEstimate> noises_;  // of each recording
+  std::vector<NoiseEstimate> noises_;  // of each recording; a usual one until it is estimated
   bool replicated_ = false;            // each of them from repeated runs
   double noise_floor_m_ = 0;
   std::vector<TrackFilter> filters_;
