@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "exchange/bag/array_length.h"
 #include "exchange/bag/idl.h"
 
 namespace umbsim::exchange {
@@ -26,7 +27,7 @@ Field field_of(std::string type, const std::string& name, const std::string& pac
   if (const std::size_t open = type.find('['); open != std::string::npos) {
     const std::string inside = type.substr(open + 1, type.find(']', open) - open - 1);
     f.is_array = true;
-    if (!inside.empty() && inside.front() != '<') f.count = std::stoul(inside);
+    if (!inside.empty() && inside.front() != '<') f.count = array_length(trimmed(inside));
     type.erase(open);
   }
   if (const std::size_t bound = type.find("<="); bound != std::string::npos) type.erase(bound);

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "exchange/bag/array_length.h"
 
 namespace umbsim::exchange {
 namespace {
@@ -122,7 +123,7 @@ class Parser {
       if (is("[")) {
         next();
         f.is_array = true;
-        f.count = std::stoul(next());
+        f.count = array_length(next());
         expect("]");
       }
       expect(";");
@@ -138,7 +139,7 @@ class Parser {
     if (is("[")) {
       next();
       type.is_array = true;
-      type.count = std::stoul(next());
+      type.count = array_length(next());
       expect("]");
     }
     expect(";");

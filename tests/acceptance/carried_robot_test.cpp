@@ -101,7 +101,8 @@ TEST_F(CarriedRobot, AnOlderRecordingFindsItsRobotInRobots) {
   EXPECT_EQ(umbsim({"gap", "plan", "a", "--effects", "wheelbase,backlash", "--out", "q"}).code, 2);
 }
 
-// Where the URDF does not tell which wheel is the left one (here its x points along the axle), the recording does.
+// Where the URDF does not tell which wheel is the left one (here its x points along the axle, and no name tells), the
+// recording does.
 TEST_F(CarriedRobot, WithTheJointsThatDriveIt) {
   for (const auto& [upright, turned] :
        std::map<std::string, std::string>{{"\"0 0.155 0\"", "\"-0.155 0 0\""},
@@ -111,7 +112,9 @@ TEST_F(CarriedRobot, WithTheJointsThatDriveIt) {
                                           {"\"1.5707963267948966 0 0\"", "\"0 1.5707963267948966 0\""},
                                           {"\"0.25 0 -0.045\"", "\"0 0.25 -0.045\""},
                                           {"ixx=\"0.00148125\"", "ixx=\"0.0028125\""},
-                                          {"iyy=\"0.0028125\"", "iyy=\"0.00148125\""}}) {
+                                          {"iyy=\"0.0028125\"", "iyy=\"0.00148125\""},
+                                          {"left_wheel", "wheel_a"},
+                                          {"right_wheel", "wheel_b"}}) {
     EXPECT_NE(urdf_.find(upright), std::string::npos) << upright;
     for (std::size_t at = urdf_.find(upright); at != std::string::npos; at = urdf_.find(upright)) {
       urdf_.replace(at, upright.size(), turned);
@@ -121,7 +124,7 @@ TEST_F(CarriedRobot, WithTheJointsThatDriveIt) {
   const std::vector<std::string> drive = with({"run", "short.yaml", "--out", "a"}, kElsewhere);
   EXPECT_EQ(umbsim(drive).code, 2);
   expect_done(
-      with(drive, {"--set", "robot.left_joint=left_wheel_joint", "--set", "robot.right_joint=right_wheel_joint"}));
+      with(drive, {"--set", "robot.left_joint=wheel_a_joint", "--set", "robot.right_joint=wheel_b_joint"}));
   expect_done({"gap", "plan", "a", "--effects", "wheelbase,backlash", "--out", "p"});
 }
 

@@ -54,7 +54,7 @@ const BadScenario kBadScenarios[] = {
     {"BumpsOnNoLeg", "format: umbsim-scenario/1\nbumps: {leg: 5}\n",
      {"bad.yaml:2:14: ", "bumps.leg", "must be >= 1 and <= 4"}},
     {"ArcTooWide", "format: umbsim-scenario/1\ncourse: {turn: arc, side_m: 1, turn_radius_m: 0.5}\n",
-     {"bad.yaml:2:9: ", "course", "turn_radius_m", "< side_m / 2"}},
+     {"bad.yaml:2:47: ", "course.turn_radius_m: 0.5", "< side_m / 2"}},
     {"OtherFormat", "format: umbsim-scenario/9\n", {"bad.yaml:1:9: ", "format", "umbsim-scenario/1"}},
     {"NotYaml", "format: [umbsim-scenario/1\n", {"bad.yaml:"}},
     {"Empty", "", {"bad.yaml"}},
@@ -160,7 +160,7 @@ TEST(Refusal, OfSeveralSettingsTheBadOneIsNamed) {
   }
   // A value of the file that a setting does not fit to: both are named. One that is bad anyway: the file alone.
   expect_says(refusal({"run", "short.yaml"}, {"--set", "course.turn=arc", "--set", "course.turn_radius_m=1"}),
-              {"umbsim: --set course.turn_radius_m=1: short.yaml:6:9: course: turn_radius_m = 1 does not fit"});
+              {"umbsim: --set course.turn_radius_m=1: course.turn_radius_m: 1 does not fit into a square of side_m = 0.5"});
   EXPECT_EQ(refusal({"run", "bad.yaml"}, {}).rfind("umbsim: bad.yaml:12:19: floor.friction: -1", 0), 0u)
       << refusal({"run", "bad.yaml"}, {});
 }

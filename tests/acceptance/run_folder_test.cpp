@@ -22,6 +22,9 @@ constexpr Shipped kShipped[] = {{"umbmark", 5, false, true},
                                 {"unidirectional_trap", 1, false, true},
                                 {"uncertainty", 10, false, false}};
 
+/// Courses that are no squares: UMBmark says nothing of them.
+constexpr const char* kOtherCourses[] = {"circle", "figure_eight", "waypoints"};
+
 void add_recording(std::set<std::string>& names, const std::string& below, int per_direction, bool bumped) {
   names.insert({below + "recording.yaml", below + "labmate.urdf"});
   for (const std::string kind : {"", "-bumped"}) {
@@ -101,9 +104,25 @@ TEST_P(ShippedScenario, WritesTheDocumentedFolder) {
 INSTANTIATE_TEST_SUITE_P(Every, ShippedScenario, testing::ValuesIn(kShipped),
                          [](const auto& param_info) { return std::string(param_info.param.name); });
 
+class OtherCourse : public testing::TestWithParam<const char*> {};
+
+TEST_P(OtherCourse, IsARecordingWithoutUmbmark) {
+  const Desk desk;
+  const Outcome run = desk.umbsim({"run", GetParam(), "--out", "r"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.out.find("E_max"), std::string::npos) << run.out;
+  EXPECT_FALSE(json_of(desk.home / "r/summary.json").contains("umbmark"));
+  EXPECT_TRUE(fs::exists(desk.home / "r/runs/ccw-3/truth.csv"));
+  EXPECT_EQ(desk.umbsim({"calibrate", "r", "--method", "least-squares", "--out", "c"}).code, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, OtherCourse, testing::ValuesIn(kOtherCourses),
+                         [](const auto& param_info) { return std::string(param_info.param); });
+
 TEST(ShippedScenarios, AreAllTested) {
   std::set<std::string> tested, present;
   for (const Shipped& s : kShipped) tested.insert(s.name);
+  for (const char* name : kOtherCourses) tested.insert(name);
   for (const auto& entry : fs::directory_iterator(fs::path(UMBSIM_SOURCE_DIR) / "scenarios")) {
     if (entry.is_directory()) continue;  // effects/: tests/effects drives them all
     EXPECT_EQ(entry.path().extension(), ".yaml") << "scenarios/ holds YAML only";

@@ -24,7 +24,7 @@ const BadSweep kBadSweeps[] = {
     {"ValuesThatDoNotFitTogether",
      "set: {course.turn: arc, course.turn_radius_m: 0.1, course.side_m: 1}\naxes:\n  course.turn_radius_m: [0.1, "
      "0.2]\n  course.side_m: [0.3, 1]\n",
-     {"bad.yaml:5:", "point 2", "turn_radius_m = 0.2", "side_m = 0.3"}},
+     {"bad.yaml:5:", "point 2", "turn_radius_m: 0.2", "side_m = 0.3"}},
     {"UnknownChoice",
      "axes:\n  calibration.method: [heading, guess]\n",
      {"bad.yaml:4:", "'guess'", "none, endpoint, heading"}},

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "exchange/bag/array_length.h"
 #include "exchange/bag/message_reader.h"
 
 namespace umbsim::exchange {
@@ -156,6 +157,12 @@ TEST(Definition, Ros1IsNotAligned) {
   EXPECT_EQ(v.numbers[2], std::vector<double>({2}));
   EXPECT_EQ(v.numbers[3], std::vector<double>({1.0}));
   EXPECT_EQ(v.texts[4], std::vector<std::string>({"hi"}));
+}
+
+TEST(ArrayLength, IsAWholeNumberOrRefused) {
+  EXPECT_EQ(array_length("36"), 36u);
+  for (const char* bad : {"", "x", "3x", "-1", "99999999999999999999", "2000000000"})
+    EXPECT_THROW(array_length(bad), InputError) << bad;
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ TEST(Scenario, WrongKindsAndChoicesAreErrors) {
   expect_refused(kFormat + "runs: {directions: [cw, cw]}\n", {"case.yaml:2:", "runs.directions", "twice"});
   expect_refused(kFormat + "runs: {directions: []}\n", {"runs.directions", "cw, ccw or both"});
   expect_refused(kFormat + "course: {turn: arc, side_m: 1, turn_radius_m: 0.5}\n",
-                 {"turn_radius_m = 0.5", "side_m = 1", "side_m / 2"});
+                 {"course.turn_radius_m: 0.5", "side_m = 1", "side_m / 2"});
   expect_refused("format: umbsim-scenario/2\n", {"case.yaml:1:", "format", "umbsim-scenario/2", "umbsim-scenario/1"});
   expect_refused(kFormat + "name: ../up\n", {"case.yaml:2:", "name"});
 }

@@ -91,7 +91,7 @@ await run({
     await page.mouse.down();
     await page.mouse.move(at.x + 0.6 * box.width, at.y + 0.5 * box.height, {steps: 4});
     await page.mouse.up();
-    assert.ok(await page.locator("#figure-2 .stretch path").count() >= 1);
+    await page.locator("#figure-2 .stretch path").first().waitFor({state: "attached", timeout: 5000});
     await page.locator("#figure-3 select").selectOption("0");  // the same by keyboard
     assert.ok(await page.locator("#figure-2 .stretch path").count() >= 1);
     await page.locator("#figure-3 select").selectOption("");

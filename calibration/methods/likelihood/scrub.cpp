@@ -9,6 +9,7 @@
 namespace umbsim::calibration {
 namespace {
 
+constexpr double kLeastAbove = 1e-200;
 constexpr double kManyDegrees = 1e6;  // of freedom, of a belief
 constexpr double kLeastTold = 1e-3;   // of the belief's variance, by which the data narrow it: less is nothing
 
@@ -18,12 +19,17 @@ struct Cut {
   double sd = 0;
 
   double quantile(double share) const {
+    // Through what lies above, which keeps its digits however far below zero the centre is.
     const boost::math::normal n;
-    const double below = boost::math::cdf(n, -centre / sd);
-    return centre + sd * boost::math::quantile(n, below + share * (1 - below));
+    const double above = boost::math::cdf(boost::math::complement(n, -centre / sd));
+    if (above < kLeastAbove) return sd * sd / -centre * -std::log1p(-share);  // there the tail falls off exponentially
+    return centre + sd * boost::math::quantile(boost::math::complement(n, (1 - share) * above));
   }
   double hazard() const {
     const boost::math::normal n;
+    // Far below zero by its asymptotic series (Abramowitz & Stegun 26.2.12).
+    const double u = -centre / sd;
+    if (boost::math::cdf(n, -u) < kLeastAbove) return u + 1 / u - 2 / (u * u * u);
     return boost::math::pdf(n, centre / sd) / boost::math::cdf(n, centre / sd);
   }
   double mean() const { return centre + sd * hazard(); }

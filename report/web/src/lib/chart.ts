@@ -144,7 +144,8 @@ export class Chart {
         .on("brush end", ({selection, sourceEvent}) => {
           if (sourceEvent) tell(selection ? (selection as Range).map((px) => this.value("x", px)) as Range : null);
         });
-    // Below the marks, so that tips still find the pointer.
+    // Below the marks, so that tips still find the pointer; lines let it through, else no drag could begin on a curve.
+    select(this.svg).selectAll("path, line").style("pointer-events", "none");
     select(this.svg).insert("g", "g").attr("class", "brush overlay").call(brush as never);
   }
 
