@@ -21,7 +21,6 @@ constexpr int kRounds = 7;
 constexpr int kFewerRounds = 4;  // what is there already has been fitted
 constexpr std::size_t kSwapsFitted = 2;
 constexpr int kSwaps = 2;
-constexpr int kDimensions = 2;          // of the robot, that may be named beside as many effects as are looked for
 constexpr double kAnotherVariant = 3;   // log evidence by which a second family of one effect may promise less
 constexpr double kTwins = 6;            // squared standard deviations between two fits' tracks, all readings
 constexpr double kRivals = 0.8;         // share of an effect's gain that the screen must see in another in its place
@@ -55,7 +54,7 @@ class Search {
     fit_singles();
     if (model_.tracker_is_free()) fit_dimensions();
     std::vector<Fit> frontier(fits_.begin() + 1, fits_.end());
-    for (int depth = 2; depth <= thresholds_.most_effects + kDimensions; ++depth) {
+    for (int depth = 2; depth <= thresholds_.most_effects; ++depth) {
       const std::vector<Fit> from = bases(std::move(frontier));
       if (from.empty() || from.front().log_evidence < none_.log_evidence + thresholds_.detect) break;
       begin(depth == 2 ? "fitting pairs of effects" : "fitting combinations of three");
