@@ -195,12 +195,6 @@ class Search {
     return from;
   }
 
-  // Effects of a fit that are not one of the robot's dimensions.
-  static int others(const Fit& fit) {
-    return int(std::count_if(fit.families.begin(), fit.families.end(),
-                             [](const Family& f) { return !is_dimension(f.effect); }));
-  }
-
   /// From which share of a stage on, and how much of it.
   struct Part {
     double from;
@@ -214,10 +208,8 @@ class Search {
     std::size_t fitted = 0;
     std::size_t climbed = 0;
     std::map<std::string, double> tried_gain;
-    const bool full = others(base) >= thresholds_.most_effects;
     for (const Screen::Candidate& c : screen_.on_top_of(base)) {
       if (fitted == kAdditionsFitted) break;
-      if (full && !is_dimension(c.family.effect)) continue;
       const auto [first, fresh] = tried_gain.try_emplace(c.family.effect, c.gain);
       if (!fresh && c.gain < first->second - kAnotherVariant) continue;
       // A climb to a place or a moment takes more simulations than all other fits.
