@@ -13,6 +13,7 @@
 #include "experiment/planned_runs.h"
 #include "experiment/result_json.h"
 #include "experiment/run_folder.h"
+#include "experiment/score_page.h"
 #include "gap/noise/track_filter.h"
 #include "gap/trial/diagnose_cases.h"
 #include "gap/trial/generate.h"
@@ -79,7 +80,7 @@ void write_score(const TrialScore& score, const fs::path& folder, const fs::path
   write_folder(folder, true, [&](const fs::path& into) {
     const Json json = score_json(score);
     write_text_file(into / "summary.json", json.dump(1) + "\n");
-    write_page(into, PageKind::score, score_page(json, "Trial " + score.trial, page_provenance_json(answers.string(), 0)));
+    write_page(into, PageKind::score, score_page(json, folder, page_provenance_json(answers.string(), 0)));
     write_text_file(into / "summary.md", score_markdown(score));
     write_text_file(into / "table.txt", score_table(score));
     write_text_file(into / "confusion.csv", confusion_csv(c));
