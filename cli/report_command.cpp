@@ -10,8 +10,8 @@
 #include "cli/pages.h"
 #include "core/error.h"
 #include "core/text_file.h"
-#include "experiment/recording_page.h"
-#include "experiment/result_folder.h"
+#include "experiment/output/recording_page.h"
+#include "experiment/output/result_folder.h"
 
 namespace umbsim {
 namespace {
