@@ -18,8 +18,8 @@
 #include "core/error.h"
 #include "core/text_file.h"
 #include "core/wrapped_text.h"
-#include "experiment/result_folder.h"
-#include "experiment/result_json.h"
+#include "experiment/output/result_folder.h"
+#include "experiment/output/result_json.h"
 
 namespace umbsim {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "calibration/compare/compare.h"
-#include "experiment/result_json.h"
+#include "experiment/output/result_json.h"
 
 namespace umbsim {
 

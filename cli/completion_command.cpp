@@ -6,7 +6,7 @@
 #include "cli/commands.h"
 #include "cli/completion_text.h"
 #include "cli/help.h"
-#include "experiment/build_info.h"
+#include "experiment/output/build_info.h"
 
 namespace umbsim {
 

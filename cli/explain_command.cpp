@@ -9,9 +9,9 @@
 #include "cli/shipped.h"
 #include "cli/tables.h"
 #include "core/text_file.h"
-#include "experiment/explain.h"
-#include "experiment/result_folder.h"
-#include "experiment/result_json.h"
+#include "experiment/explain/explain.h"
+#include "experiment/output/result_folder.h"
+#include "experiment/output/result_json.h"
 
 namespace umbsim {
 namespace {

@@ -15,10 +15,10 @@
 #include "exchange/export/ros2_control.h"
 #include "exchange/export/text_logs.h"
 #include "exchange/export/urdf_text.h"
-#include "experiment/drive_run.h"
-#include "experiment/replay.h"
-#include "experiment/result_folder.h"
-#include "experiment/result_json.h"
+#include "experiment/drive/drive_run.h"
+#include "experiment/output/result_folder.h"
+#include "experiment/output/result_json.h"
+#include "experiment/replay/replay.h"
 
 namespace umbsim {
 namespace {

@@ -16,11 +16,11 @@
 #include "cli/pages.h"
 #include "core/text_file.h"
 #include "core/wrapped_text.h"
-#include "experiment/build_info.h"
-#include "experiment/replay.h"
-#include "experiment/result_folder.h"
-#include "experiment/result_json.h"
-#include "experiment/scene_json.h"
+#include "experiment/output/build_info.h"
+#include "experiment/output/result_folder.h"
+#include "experiment/output/result_json.h"
+#include "experiment/output/scene_json.h"
+#include "experiment/replay/replay.h"
 #include "gap/answer/twin.h"
 #include "gap/diagnose.h"
 #include "gap/output/diagnosis_json.h"
@@ -110,15 +110,15 @@ void run_diagnose(const DiagnoseArguments& a) {
   const gap::Campaign& campaign = recordings.campaign();
   ResultFolder out(a.out, recordings.name() + "-diagnosis", a.force);
   GapStages stages(campaign.all.runs.size(), gap::stages_of_diagnosis());
-  const gap::Say say = [&](const std::string& stage, double share) { stages.say(stage, share); };
+  const gap::ProgressCallback progress = [&](const std::string& stage, double share) { stages.report(stage, share); };
   const gap::Model model(campaign, stages.counted(recordings.simulator(a.no_cache)), gap::Scatter{});
   const std::set<std::string> excluded(a.excluded.begin(), a.excluded.end());
-  gap::Diagnosis d = gap::diagnose(model, excluded, gap::Thresholds{}, say);
+  gap::Diagnosis d = gap::diagnose(model, excluded, gap::Thresholds{}, progress);
   d.limits.insert(d.limits.begin(), recordings.limits().begin(), recordings.limits().end());
-  say("what could be another effect", 0);
+  progress("what could be another effect", 0);
   const gap::Ties ties = gap::find_ties(model, d, excluded, gap::Thresholds{});
   gap::add_ties(ties, gap::Thresholds{}, d);
-  say("what to drive next", 0);
+  progress("what to drive next", 0);
   const std::vector<gap::NextExperiment> next =
       next_runs(recordings.scenario(), campaign.parts.front(), ties, d.noise, a.no_cache);
   stages.done();

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiment/planned_runs.h"
+#include "experiment/drive/planned_runs.h"
 #include "gap/noise/clock.h"
 
 namespace umbsim {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "experiment/scenario.h"
+#include "experiment/scenario/scenario.h"
 #include "gap/plan/menu.h"
 
 namespace umbsim {

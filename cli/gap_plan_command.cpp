@@ -14,8 +14,8 @@
 #include "cli/pages.h"
 #include "cli/shipped.h"
 #include "core/text_file.h"
-#include "experiment/result_folder.h"
-#include "experiment/result_json.h"
+#include "experiment/output/result_folder.h"
+#include "experiment/output/result_json.h"
 #include "gap/noise/clock.h"
 #include "gap/plan/json.h"
 #include "gap/replay/remembered.h"
@@ -139,11 +139,11 @@ void plan(const PlanArguments& a) {
   context.durations_s = durations_s(all);
   const Replay replay(s.scenario, all);
   GapStages stages(all.runs.size(), gap::stages_of_plan());
-  const gap::Say say = [&](const std::string& stage, double share) { stages.say(stage, share); };
+  const gap::ProgressCallback progress = [&](const std::string& stage, double share) { stages.report(stage, share); };
   const gap::Simulator simulator = stages.counted(cached_gap_simulator(replay, a.no_cache));
   const gap::Campaign campaign = gap::campaign_of(all);
   const gap::Model model(campaign, gap::remembered(simulator, all), s.scatter, s.noise);
-  const gap::Plan result = gap::plan(model, context.given, s.scatter.radius, options, say);
+  const gap::Plan result = gap::plan(model, context.given, s.scatter.radius, options, progress);
   stages.done();
   out.write([&](const fs::path& into) {
     const Json json = gap::plan_json(result, context, options, s.noise);

@@ -15,9 +15,9 @@
 #include "cli/shipped.h"
 #include "core/text_file.h"
 #include "core/wrapped_text.h"
-#include "experiment/replay.h"
-#include "experiment/result_folder.h"
-#include "experiment/result_json.h"
+#include "experiment/output/result_folder.h"
+#include "experiment/output/result_json.h"
+#include "experiment/replay/replay.h"
 
 namespace umbsim {
 namespace {

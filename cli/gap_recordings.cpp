@@ -10,7 +10,7 @@
 #include "cli/gap_simulator.h"
 #include "cli/shipped.h"
 #include "core/error.h"
-#include "experiment/result_folder.h"
+#include "experiment/output/result_folder.h"
 #include "gap/noise/clock.h"
 #include "gap/replay/remembered.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/replay.h"
+#include "experiment/replay/replay.h"
 #include "gap/replay/campaign.h"
 
 namespace umbsim {

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/sha256.h"
 #include "core/text_file.h"
-#include "experiment/build_info.h"
+#include "experiment/output/build_info.h"
 
 namespace umbsim {
 namespace {
@@ -66,7 +66,7 @@ gap::Simulator gap_simulator(const Replay& replay) {
             return replay.poses(run, effects, roughness_m_per_sqrt_m);
           },
           [&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.counts(run, effects); },
-          [&replay](const std::vector<Effect>& effects) { return replay.habits(effects); },
+          [&replay](const std::vector<Effect>& effects) { return replay.command_features(effects); },
           [&replay](const std::vector<Effect>& effects) { return replay.scrubs(effects); },
           replay.wheel_width_m(),
           replay.nominal().total_mass_kg()};

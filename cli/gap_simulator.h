@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "experiment/replay.h"
+#include "experiment/replay/replay.h"
 #include "gap/output/diagnosis_progress.h"
 #include "gap/replay/signature_cache.h"
 
@@ -26,7 +26,7 @@ class GapStages {
 
   /// The same simulator, counted. The stages must outlive it.
   gap::Simulator counted(gap::Simulator simulator) { return progress_.counted(std::move(simulator)); }
-  void say(const std::string& stage, double share) { progress_.stage(stage, share); }
+  void report(const std::string& stage, double share) { progress_.stage(stage, share); }
   void done();
 
  private:

@@ -10,14 +10,14 @@
 #include "cli/shipped.h"
 #include "core/text_file.h"
 #include "core/wrapped_text.h"
-#include "experiment/planned_runs.h"
-#include "experiment/result_json.h"
-#include "experiment/run_folder.h"
-#include "experiment/score_page.h"
+#include "experiment/drive/planned_runs.h"
+#include "experiment/output/result_json.h"
+#include "experiment/output/run_folder.h"
+#include "experiment/output/score_page.h"
 #include "gap/noise/track_filter.h"
-#include "gap/trial/diagnose_cases.h"
-#include "gap/trial/generate.h"
-#include "gap/trial/score.h"
+#include "gap/trial/diagnose/diagnose_cases.h"
+#include "gap/trial/score/score.h"
+#include "gap/trial/write/generate.h"
 
 namespace umbsim {
 namespace {

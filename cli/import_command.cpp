@@ -11,8 +11,8 @@
 #include "core/text_file.h"
 #include "exchange/import/imported.h"
 #include "exchange/import/paths_svg.h"
-#include "experiment/result_folder.h"
-#include "experiment/result_json.h"
+#include "experiment/output/result_folder.h"
+#include "experiment/output/result_json.h"
 
 namespace umbsim {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "exchange/import/imported.h"
-#include "experiment/result_json.h"
+#include "experiment/output/result_json.h"
 
 namespace umbsim {
 

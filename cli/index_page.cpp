@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "core/text_file.h"
-#include "experiment/build_info.h"
-#include "experiment/result_json.h"
+#include "experiment/output/build_info.h"
+#include "experiment/output/result_json.h"
 #include "report/report.h"
 
 namespace umbsim {

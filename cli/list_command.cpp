@@ -9,7 +9,7 @@
 #include "core/text_file.h"
 #include "core/wrapped_text.h"
 #include "core/yaml_reader.h"
-#include "experiment/robots.h"
+#include "experiment/scenario/robots.h"
 
 namespace umbsim {
 namespace {

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -7,15 +10,12 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
 #include "cli/commands.h"
 #include "cli/exit.h"
 #include "cli/help.h"
 #include "core/error.h"
 #include "core/printable.h"
-#include "experiment/build_info.h"
+#include "experiment/output/build_info.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 
 #include "cli/index_page.h"
 #include "core/text_file.h"
-#include "experiment/build_info.h"
+#include "experiment/output/build_info.h"
 
 extern char** environ;
 

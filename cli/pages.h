@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "experiment/result_json.h"
+#include "experiment/output/result_json.h"
 #include "report/report.h"
 
 namespace umbsim {

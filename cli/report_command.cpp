@@ -10,9 +10,9 @@
 #include "cli/pages.h"
 #include "core/error.h"
 #include "core/text_file.h"
-#include "experiment/recording_page.h"
-#include "experiment/result_folder.h"
-#include "experiment/score_page.h"
+#include "experiment/output/recording_page.h"
+#include "experiment/output/result_folder.h"
+#include "experiment/output/score_page.h"
 
 namespace umbsim {
 namespace {

@@ -11,9 +11,9 @@
 #include "cli/shipped.h"
 #include "core/text_file.h"
 #include "core/wrapped_text.h"
-#include "experiment/run_folder.h"
-#include "experiment/run_sweep.h"
-#include "experiment/sweep_result.h"
+#include "experiment/output/run_folder.h"
+#include "experiment/sweep/run_sweep.h"
+#include "experiment/sweep/sweep_result.h"
 
 namespace umbsim {
 namespace {

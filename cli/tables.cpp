@@ -9,8 +9,8 @@
 
 #include "core/printable.h"
 #include "core/wrapped_text.h"
-#include "experiment/cable_layer.h"
-#include "experiment/course/read_course.h"
+#include "experiment/drive/cable_layer.h"
+#include "experiment/scenario/read_course.h"
 #include "experiment/wheel_loads.h"
 
 namespace umbsim {

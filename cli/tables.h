@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "experiment/explain.h"
+#include "experiment/explain/explain.h"
 #include "experiment/run.h"
 
 namespace umbsim {

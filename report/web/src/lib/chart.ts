@@ -48,6 +48,10 @@ function grid(which: string, tickSpacing?: number): Plot.Markish[] {
 
 const seen = (scale: Plot.ScaleOptions, view?: Range): Plot.ScaleOptions => (view ? {...scale, domain: view, nice: false} : scale);
 
+// Its group has no role that may bear Plot's label.
+const tipOf = (points: Point[]): Plot.Markish =>
+    Object.assign(Plot.tip(points, Plot.pointer({x: "x", y: "y", title: "words", className: "tip", ...TIP})), {ariaLabel: undefined});
+
 type Placed = SVGSVGElement & Plot.Plot;
 
 export class Chart {
@@ -86,12 +90,14 @@ export class Chart {
       width, height: height ?? width - MARGIN.left - MARGIN.right + MARGIN.top + MARGIN.bottom,
       marginLeft: MARGIN.left, marginRight: MARGIN.right, marginTop: MARGIN.top, marginBottom: MARGIN.bottom, clip: true, ...plot,
       style: {fontSize: "12px", overflow: "visible"}, x: {labelAnchor: "center", ...seen(x, this.view.x)}, y: seen(y, this.view.y),
-      marks: [grid(lines, y.tickSpacing), marks, points.length ? Plot.tip(points, Plot.pointer({x: "x", y: "y", title: "words", ...TIP})) : null],
+      marks: [grid(lines, y.tickSpacing), marks, points.length ? tipOf(points) : null],
     }) as Placed;
-    this.svg.setAttribute("role", "img");
+    const links = this.svg.querySelectorAll("a");  // where the points are, in their order
+    this.svg.setAttribute("role", links.length ? "group" : "img");
     this.svg.setAttribute("aria-label", label);
     this.svg.dataset.chart = this.options.name;
     this.svg.querySelectorAll("[aria-label]").forEach((mark) => mark.removeAttribute("aria-label"));  // the label above says it all
+    links.forEach((link, i) => link.setAttribute("aria-label", points[i].words.replace(/\n/g, " ")));
     const box = find(this.place, ".plot");
     box.setAttribute("aria-label", `${this.options.name}. Arrow keys read the values.`);
     box.replaceChildren(this.svg);

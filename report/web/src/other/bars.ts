@@ -47,7 +47,8 @@ export interface Cell {
 /// A matrix of shares; zero is left white, what is right is framed. On a narrow screen it is wider than its frame, which scrolls.
 export function matrix(place: HTMLElement, name: string, rows: string[], columns: string[], cells: Cell[], [rowLabel, columnLabel]: [string, string]): Chart {
   const longest = (names: string[]) => Math.max(...names.map((n) => n.length));
-  const [left, bottom] = [26 + 6.4 * longest(rows), 34 + 5 * longest(columns)];
+  const slanted = columns.map((c, i) => 4.4 * c.length - 20 * i);  // how far the name of a column reaches beyond the first
+  const [left, bottom] = [Math.max(40 + 6.6 * longest(rows), ...slanted), 34 + 5 * longest(columns)];
   return new Chart(place, {
     name, most: Math.min(1060, left + 34 * columns.length), least: Math.min(1060, left + 20 * columns.length), zoom: "none", draw: () => ({
       label: `${columnLabel} for each ${rowLabel}: ${cells.filter((c) => c.right).length} of ${cells.length} cells are right`, grid: "none",
@@ -56,8 +57,8 @@ export function matrix(place: HTMLElement, name: string, rows: string[], columns
       plot: {marginLeft: left, marginBottom: bottom, marginTop: 28},
       marks: [
         Plot.cell(cells, {x: "column", y: "row", fill: "var(--cw)", fillOpacity: (c: Cell) => Math.max(0.06, c.value), href: "link", className: "cell"}),
-        Plot.cell(cells.filter((c) => c.right), {x: "column", y: "row", stroke: "var(--ink)", strokeWidth: 1.5, fill: "none", inset: 0.5}),
-        Plot.text(cells, {x: "column", y: "row", text: "text", fill: "var(--ink)", stroke: "var(--card)", strokeWidth: 3, fontSize: 10.5, pointerEvents: "none"}),
+        Plot.cell(cells.filter((c) => c.right), {x: "column", y: "row", stroke: "var(--ink)", strokeWidth: 1.5, fill: "none", inset: 0.5, className: "right"}),
+        Plot.text(cells, {x: "column", y: "row", text: "text", fill: "var(--ink)", stroke: "var(--card)", strokeWidth: 3, fontSize: 10.5, pointerEvents: "none", className: "counts"}),
         Plot.frame({stroke: "var(--line)"})],
     })});
 }

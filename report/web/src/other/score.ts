@@ -9,6 +9,7 @@ import {fill, find, html, type Html, raw} from "../lib/html";
 import {build, legend, lineIcon, type Section} from "../lib/page";
 import {table} from "../lib/table";
 import type {Figures} from "../run/data";
+import {together} from "../run/scatter";
 import {provenance} from "../run/tables";
 import {COLOURS, matrix, SYMBOLS, type Cell} from "./bars";
 
@@ -110,7 +111,7 @@ function curve(place: HTMLElement, name: string, xLabel: string, yLabel: string,
   const ofSeries = (b: Bin) => COLOURS[at(b) % COLOURS.length];
   return new Chart(place, {
     name, draw: (width) => ({
-      label: `${yLabel} over ${xLabel}: ${bins.map((b) => b.words.replace(/\n/g, ", ")).join("; ")}`, points: bins, height: Math.max(260, width * 0.66), grid: "xy",
+      label: `${yLabel} over ${xLabel}: ${bins.map((b) => b.words.replace(/\n/g, ", ")).join("; ")}`, points: together(bins, 1), height: Math.max(260, width * 0.66), grid: "xy",
       x: {label: xLabel, inset: 8, ...(stated ? {domain: [0, 1], tickFormat: ".0%"} : {zero: true})}, y: {label: yLabel, domain: [0, 1], tickFormat: ".0%", inset: 8},
       plot: {color: {type: "identity"}, symbol: {domain: series, range: [...SYMBOLS].slice(0, series.length)}, r: {range: [3, 9], domain: [0, Math.max(...bins.map((b) => b.cases))]}},
       marks: [stated ? Plot.line([[0, 0], [1, 1]], {stroke: "var(--axis)", strokeDasharray: "5 4"}) : Plot.line(bins, {x: "x", y: "y", z: "series", stroke: ofSeries, strokeWidth: 1.6}),
