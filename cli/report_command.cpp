@@ -10,9 +10,10 @@
 #include "cli/pages.h"
 #include "core/error.h"
 #include "core/text_file.h"
+#include "experiment/output/build_info.h"
 #include "experiment/output/recording_page.h"
 #include "experiment/output/result_folder.h"
-#include "experiment/output/score_page.h"
+#include "report/score_page.h"
 
 namespace umbsim {
 namespace {
@@ -96,7 +97,7 @@ Page page_of(const fs::path& folder) {
   for (const char* score : {"worlds.json", "confusion.csv"}) {
     if (!has(score)) continue;
     const fs::path file = folder / (std::string(score) == "worlds.json" ? score : "summary.json");
-    return {PageKind::score, score_page(json_of(file), folder, provenance)};
+    return {PageKind::score, score_page(json_of(file), folder, build_info().version, provenance)};
   }
   if (auto old = of_old_page(folder)) return std::move(*old);
   if (has("recording.yaml"))

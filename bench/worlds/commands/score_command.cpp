@@ -4,8 +4,10 @@
 
 #include "bench/worlds/commands/commands.h"
 #include "bench/worlds/score/score.h"
-#include "experiment/output/score_page.h"
+#include "experiment/output/build_info.h"
+#include "experiment/output/result_json.h"
 #include "report/report.h"
+#include "report/score_page.h"
 
 namespace umbsim::worlds {
 
@@ -22,7 +24,8 @@ void add_score_command(CLI::App& app) {
     write_file_whole(worlds.score() / "worlds.json", json.dump(1) + "\n");
     write_file_whole(worlds.score() / "worlds.md", text);
     if (has_pages()) {
-      const Json page = score_page(json, worlds.score(), page_provenance_json(worlds.answers().string(), 0));
+      const Json page =
+          score_page(json, worlds.score(), build_info().version, page_provenance_json(worlds.answers().string(), 0));
       write_file_whole(worlds.score() / "report.html", render_report(PageKind::score, page));
     }
     fmt::print("{}\nResult in {}: worlds.json, worlds.md{}\n", text, worlds.score().string(),

@@ -1,6 +1,7 @@
 // Driven paths side by side, a panel for each direction: a run is chosen in each, differences are enlarged by a slider, and a
 // cursor shows the replay's moment.
 
+import {extent} from "d3";
 import {Chart, type Drawing, type Range} from "./chart";
 import {factorAt, factorFor, sayFactor, slider} from "./enlarge";
 import {directionName} from "./format";
@@ -9,17 +10,7 @@ import type {Shared} from "./shared";
 
 export type Box = [number, number, number, number];
 
-export function boundsOf(points: number[][]): Box {
-  const b: Box = [Infinity, -Infinity, Infinity, -Infinity];
-  for (const [x, y] of points) {
-    b[0] = Math.min(b[0], x);
-    b[1] = Math.max(b[1], x);
-    b[2] = Math.min(b[2], y);
-    b[3] = Math.max(b[3], y);
-  }
-  return b;
-}
-
+export const boundsOf = (points: number[][]): Box => [0, 1].flatMap((i) => extent(points, (p) => p[i]) as Range) as Box;
 export const spanOf = (b: Box): number => Math.max(b[1] - b[0], b[3] - b[2]);
 
 /// Axes in metres about a box, with equal scales.

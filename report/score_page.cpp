@@ -1,11 +1,10 @@
-#include "experiment/output/score_page.h"
-
-#include "experiment/output/build_info.h"
+#include "report/score_page.h"
 
 namespace umbsim {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 // Verdicts are a list with names (trial) or named entries (proving ground).
 Json case_links(const Json& verdicts, const fs::path& folder) {
@@ -23,10 +22,10 @@ Json case_links(const Json& verdicts, const fs::path& folder) {
 
 }  // namespace
 
-Json score_page(const Json& score, const fs::path& folder, const Json& provenance) {
+Json score_page(const Json& score, const fs::path& folder, const std::string& version, const Json& provenance) {
   const bool worlds = score.contains("name");
   const std::string title = worlds ? "Worlds " + score.value("name", "") : "Trial " + score.value("trial", "");
-  Json page{{"title", title}, {"version", build_info().version}, {"score", score}, {"provenance", provenance}};
+  Json page{{"title", title}, {"version", version}, {"score", score}, {"provenance", provenance}};
   page["links"] = case_links(score.value("verdicts", Json::array()), folder);
   return page;
 }
