@@ -52,7 +52,7 @@ export function shownAs(name: string, axis: boolean): {scale: number; unit: stri
   const [, scale, unit, suffix] = UNITS.map(([end, s, u]) => [end.test(name), s, u, end] as const).find(([hit]) => hit) ??
       (/_m$/.test(name) ? [true, axis ? 1 : 1000, axis ? "m" : "mm", /_m$/] as const : [true, 1, "", /$^/] as const);
   const bare = name.replace(suffix.source.startsWith("(^") ? /$^/ : suffix, "").replace(/^(effects|course|umbmark|floor|encoders|noise|truth|runs)\./, "");
-  const words = bare.replace("e_max_syst", "E_max,syst").replace(/\be_([db])\b/g, "E_$1").replace(/\./g, ", ").replace(/(?<!E)_(?!max|d\b|b\b)/g, " ");
+  const words = bare.replace("e_max_syst", "E_max,syst").replace(/\be_([db])(?=_|\b)/g, "E_$1").replace(/\./g, ", ").replace(/(?<!E)_(?!max)/g, " ");
   return {scale, unit, label: unit ? `${words} (${unit})` : words};
 }
 

@@ -73,7 +73,7 @@ function setup(data: SweepData, section: HTMLElement): void {
     const slot = find(section, ".key-slot");
     slot.replaceChildren();
     if (isCurves(data, choice)) fill(slot, legend(curveNames(data, rows(), choice).map(([c, text]) => [lineIcon(c), text])));
-    else slot.append(Plot.legend({color: colours(data, rows(), choice), width: 300, tickFormat: short} as unknown as Plot.LegendOptions));
+    else slot.append(Plot.legend({color: colours(data, rows(), choice), width: 320, marginLeft: 16, tickFormat: short} as unknown as Plot.LegendOptions));
   };
   key();
   section.addEventListener("change", (event) => {
