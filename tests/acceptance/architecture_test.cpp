@@ -34,6 +34,9 @@ const std::map<std::string, Names> kArrows = {
     {"gap", {"calibration", "recording", "odometry", "effects", "batch", "core"}},
     {"experiment", {"batch", "effects", "calibration", "umbmark", "recording", "odometry", "sim", "core"}},
     {"exchange", {"calibration", "recording", "odometry", "sim", "core"}},
+    {"batch", {{{"store", {}}}, {"store"}}},
+    {"exchange/bag", {{{"files", {}}, {"messages", {}}}, {}}},
+    {"exchange/import", {{{"wheels", {}}, {"truth", {}}, {"runs", {}}}, {"wheels", "truth", "runs"}}},
     {"cli",
      {"exchange", "experiment", "gap", "calibration", "report", "umbmark", "effects", "recording", "odometry", "sim",
       "batch", "core"}},
@@ -84,7 +87,7 @@ const std::map<std::string, Rooms> kRooms = {
       {}}},
 };
 /// Rooms that are larger, with the reason in docs/architecture.md.
-const Names kLarge = {"sim", "core", "batch", "exchange/bag", "exchange/import"};
+const Names kLarge = {"sim", "core"};
 /// A room holds few files of its own, sub-rooms not counted.
 constexpr int kMostFiles = 20;
 constexpr int kMostLines = 2500;
