@@ -18,8 +18,8 @@ void apply(const MotorResponse& effect, Rig& rig) {
   motor[1].gain = 2 * (1 + effect.gain_asymmetry) / (2 + effect.gain_asymmetry);
 }
 
-void apply(const OverAcceleration& effect, Rig& rig) { rig.demand.acceleration_factor = effect.factor; }
+void apply(const OverAcceleration& effect, Rig& rig) { rig.commanded_motion.acceleration_factor = effect.factor; }
 
-void apply(const FastTurning& effect, Rig& rig) { rig.demand.turn_speed_factor = effect.factor; }
+void apply(const FastTurning& effect, Rig& rig) { rig.commanded_motion.turn_speed_factor = effect.factor; }
 
 }  // namespace umbsim

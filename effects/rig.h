@@ -20,7 +20,7 @@ struct RunInfo {
 };
 
 /// What the driver asks of the robot, relative to the course's own speeds and accelerations.
-struct Demand {
+struct CommandedMotion {
   double acceleration_factor = 1;  ///< of linear and angular accelerations
   double turn_speed_factor = 1;    ///< of the turns' angular speed and acceleration
 };
@@ -37,7 +37,7 @@ struct Rig {
   Drivetrain drivetrain;
   EncoderSpec encoders;
   Floor floor;
-  Demand demand;
+  CommandedMotion commanded_motion;
   std::vector<LegPush> pushes;
   RunInfo run;
 };

@@ -51,7 +51,7 @@ bool same(const EncoderSpec& a, const EncoderSpec& b) {
          latency == b.latency_s && same(left, b.left) && same(right, b.right);
 }
 
-bool same(const Demand& a, const Demand& b) {
+bool same(const CommandedMotion& a, const CommandedMotion& b) {
   const auto& [acceleration, turn] = a;
   return acceleration == b.acceleration_factor && turn == b.turn_speed_factor;
 }
@@ -71,10 +71,10 @@ bool same(const Floor& a, const Floor& b) {
 }
 
 bool same(const Rig& a, const Rig& b) {
-  const auto& [robot, drivetrain, encoders, floor, demand, pushes, run] = a;
+  const auto& [robot, drivetrain, encoders, floor, commanded_motion, pushes, run] = a;
   return same(robot.base, b.robot.base) && all_same(robot.wheels, b.robot.wheels) &&
          all_same(robot.casters, b.robot.casters) && all_same(drivetrain.motor, b.drivetrain.motor) &&
-         same(encoders, b.encoders) && same(floor, b.floor) && same(demand, b.demand) &&
+         same(encoders, b.encoders) && same(floor, b.floor) && same(commanded_motion, b.commanded_motion) &&
          pushes.size() == b.pushes.size() && run.id == b.run.id;
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "calibration/calibrate.h"
-#include "experiment/drive_run.h"
-#include "experiment/scenario.h"
+#include "experiment/drive/drive_run.h"
+#include "experiment/scenario/scenario.h"
 #include "umbmark/figures.h"
 
 namespace umbsim {

@@ -25,7 +25,7 @@ constexpr std::size_t kSegments = 12;
 
 std::vector<std::string> names_of(const Fit& fit) {
   std::vector<std::string> names;
-  for (const Family& f : fit.families) names.push_back(f.effect);
+  for (const Hypothesis& f : fit.hypotheses) names.push_back(f.effect);
   return names;
 }
 
@@ -66,17 +66,17 @@ void put_first(const Fit& fit, double leftover, Diagnosis& d) {
 bool named_without_fit(const Work& w, const LeftUnexplained& left, Fit& best, Diagnosis& d) {
   if (w.excluded.count("uneven_floor") == 0) {
     if (const auto uneven = with_uneven_floor(w.model, w.none, best, left.lack, w.thresholds)) {
-      if (uneven->families.size() == 1) add_nothing(d.closure);
+      if (uneven->hypotheses.size() == 1) add_nothing(d.closure);
       best = *uneven;
       put_first(best, left.all(), d);
       d.limits.push_back("an uneven floor's shape is not fitted: the twin has no such floor");
       return true;
     }
   }
-  const auto demand = plain_demand(w.model, d.causes, w.none, w.left_by_none.steady, w.thresholds);
-  if (!demand) return false;
+  const auto shown = shown_commanded_motion(w.model, d.causes, w.none, w.left_by_none.steady, w.thresholds);
+  if (!shown) return false;
   add_nothing(d.closure);
-  best = *demand;
+  best = *shown;
   put_first(best, left.all(), d);
   d.limits.push_back("commands show the demand; how the tyres slip under it is not reproduced");
   return true;
@@ -85,7 +85,7 @@ bool named_without_fit(const Work& w, const LeftUnexplained& left, Fit& best, Di
 // "unknown" among the causes: ahead of them, or behind.
 void add_unknown(const Work& w, const Fit& best, bool leads, double leftover, Diagnosis& d) {
   Cause cause{"unknown", best, 0, 0};
-  cause.fit.families.clear();
+  cause.fit.hypotheses.clear();
   const Thresholds& t = w.thresholds;
   cause.score = leads ? d.causes.front().score + 0.5 * leftover
                       : std::min(w.left_by_none.steady - 2 * t.effect_cost, d.causes.front().score - t.detect);
@@ -102,7 +102,7 @@ void make_twin(const Work& w, bool unknown, Diagnosis& d) {
   if (d.twin_is_nominal()) add_nothing(d.closure);
   if (misleads && !unknown)
     d.limits.push_back("what was found foretells the other runs badly: the twin goes without it");
-  else if (!d.twin_is_nominal() && d.twin.families.size() < d.explanation.families.size())
+  else if (!d.twin_is_nominal() && d.twin.hypotheses.size() < d.explanation.hypotheses.size())
     d.limits.push_back(
         fmt::format("the twin holds {} alone: the rest foretells held-out runs no better", d.twin.name()));
 }
@@ -127,7 +127,7 @@ void fill_set(const Work& w, const Found& found, const LeftUnexplained& left, co
   d.set = tied(d.causes, w.thresholds);
   if (d.causes.front().name == "unknown") {
     // What explains more than anything of no particular cause could is worth knowing, even where it is not the whole.
-    if (!best.families.empty() && w.explained_by(best) > std::max(left.steady, kWorthKnowing * left.lack))
+    if (!best.hypotheses.empty() && w.explained_by(best) > std::max(left.steady, kWorthKnowing * left.lack))
       add_what_explains(best, w.none, d);
     add_what_counts_show(w.model, w.none, w.thresholds, d);
     if (w.excluded.count("uneven_floor") == 0 && may_be_uneven_floor(w.model, w.none)) d.set.push_back("uneven_floor");
@@ -139,10 +139,10 @@ void fill_set(const Work& w, const Found& found, const LeftUnexplained& left, co
 void say_where(const Work& w, const Fit& best, Diagnosis& d) {
   d.segments = segment_scores(w.model, w.none);
   if (d.segments.size() > kSegments) d.segments.resize(kSegments);
-  if (!d.detected || best.families.empty()) return;
+  if (!d.detected || best.hypotheses.empty()) return;
   // The effect that explains most names the stage.
-  d.stage = name(find_effect(best.families.front().effect).stage);
-  d.pattern = pattern_of(best.families.front().effect);
+  d.stage = name(find_effect(best.hypotheses.front().effect).stage);
+  d.pattern = pattern_of(best.hypotheses.front().effect);
   find_place(w.model, best, d);
   if (d.has_place) d.place_wheel = wheel_at(w.model, d.place_m[0], d.place_m[1]);
 }
@@ -153,7 +153,7 @@ void measure(const Work& w, const LeftUnexplained& left, const Fit& best, Diagno
   const double before_m2 = mean_square_error_m2(w.model, w.none.predicted.tracks);
   d.before_mm = 1000 * std::sqrt(before_m2);
   for (Cause& c : d.causes) {
-    if (!c.fit.families.empty())
+    if (!c.fit.hypotheses.empty())
       c.squared_error_drop = 1 - mean_square_error_m2(w.model, c.fit.predicted.tracks) / before_m2;
   }
   d.overdispersion = std::max(1.0, best.residual / w.model.rows());
@@ -164,17 +164,18 @@ void measure(const Work& w, const LeftUnexplained& left, const Fit& best, Diagno
 
 }  // namespace
 
-Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, const Thresholds& t, const Say& say) {
+Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, const Thresholds& t,
+                   const ProgressCallback& progress) {
   Diagnosis d;
-  say("signatures of the effects", 0);
+  progress("signatures of the effects", 0);
   const Screen screen(model, excluded);
-  Found found = search(model, screen, t, say);
+  Found found = search(model, screen, t, progress);
   const Fit none = found.fits.front();
   d.causes = ranked(worth_their_cost(model, std::move(found.fits), t), t);
-  say("held-out runs", 0);
+  progress("held-out runs", 0);
   prefer_what_predicts(model, d.causes, t);
-  prefer_what_rolls(d.causes);
-  say("what no effect explains", 0);
+  prefer_kinematic(d.causes);
+  progress("what no effect explains", 0);
   const Work work{model, screen, excluded, t, none, left_unexplained(model, none, t)};
   detect(work, d);
   Fit best = d.causes.front().fit;

@@ -10,6 +10,6 @@ namespace umbsim::gap {
 
 /// Diagnoses a recording. `excluded`: effects taken out of the catalogue. Throws InputError, RunError.
 Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, const Thresholds& thresholds,
-                   const Say& say);
+                   const ProgressCallback& progress);
 
 }  // namespace umbsim::gap

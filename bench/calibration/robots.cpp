@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiment/design.h"
-#include "experiment/drive_run.h"
-#include "experiment/robots.h"
+#include "experiment/drive/drive_run.h"
+#include "experiment/scenario/robots.h"
+#include "experiment/sweep/design.h"
 
 namespace umbsim::bench {
 namespace {

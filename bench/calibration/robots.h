@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "calibration/methods/fit.h"
-#include "experiment/scenario.h"
+#include "experiment/scenario/scenario.h"
 
 namespace umbsim::bench {
 

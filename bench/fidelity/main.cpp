@@ -3,10 +3,10 @@
 #include <cstring>
 #include <string>
 
-#include "bench/fidelity/cable.h"
-#include "bench/fidelity/cone.h"
+#include "bench/fidelity/contact/cable.h"
+#include "bench/fidelity/contact/cone.h"
+#include "bench/fidelity/contact/loads.h"
 #include "bench/fidelity/energy.h"
-#include "bench/fidelity/loads.h"
 #include "bench/fidelity/rolling.h"
 #include "bench/fidelity/steps.h"
 #ifdef UMBSIM_FIDELITY_PEERS

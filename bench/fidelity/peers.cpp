@@ -1,14 +1,14 @@
 #include "bench/fidelity/peers.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "bench/fidelity/robots.h"
 #include "bench/fidelity/table.h"
-#include "bench/tasks.h"
+#include "bench/speed/tasks.h"
 
 namespace umbsim::fidelity {
 namespace {
@@ -19,7 +19,7 @@ using bench::Setup;
 
 const char* const kText = R"(## 7. MuJoCo, run by run
 
-The LabMate in both engines, driven by the same commands. MuJoCo's settings are those of `bench/engine.h`, the best found
+The LabMate in both engines, driven by the same commands. MuJoCo's settings are those of `bench/speed/engine.h`, the best found
 ([bench.md](bench.md)): Euler with implicit damping; on the floor spheres, impratio 10 000 and a contact time constant of two steps, on the cable
 cylinders, impratio 1, 4 ms and four times critical damping.
 Each engine's end pose is compared with exact kinematics of its own wheel angles (for the cable: plus the closed form's

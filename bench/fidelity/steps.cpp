@@ -1,10 +1,10 @@
 #include "bench/fidelity/steps.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
-#include "bench/fidelity/cable.h"
+#include <cmath>
+
+#include "bench/fidelity/contact/cable.h"
 #include "bench/fidelity/table.h"
 #include "core/pose2.h"
 #include "umbmark/course.h"

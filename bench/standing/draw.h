@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "experiment/scenario.h"
+#include "experiment/scenario/scenario.h"
 
 namespace umbsim {
 

@@ -20,14 +20,14 @@ constexpr double kMonotone = 0.5;    // of the whole way up and down, that the r
 constexpr double kUpAndDown = 0.15;  // the same of what samples add, at most
 
 /// What a column does.
-struct Habit {
+struct SignalStatistics {
   std::size_t rests = 0;
   std::set<double> rest_values;
   double usual_step = 0, range = 0, way = 0;
 };
 
-Habit habit_of(const std::vector<double>& values) {
-  Habit h;
+SignalStatistics statistics_of(const std::vector<double>& values) {
+  SignalStatistics h;
   std::vector<double> steps;
   std::size_t equal = 1;
   for (std::size_t i = 1; i < values.size(); ++i) {
@@ -46,13 +46,13 @@ Habit habit_of(const std::vector<double>& values) {
   return h;
 }
 
-bool is_sum(const Habit& h) {
+bool is_sum(const SignalStatistics& h) {
   if (h.rest_values.size() < 2) return h.range > kMonotone * h.way && h.range > kFar * h.usual_step;
   const double apart = *h.rest_values.rbegin() - *h.rest_values.begin();
   return apart > kFar * h.usual_step && double(h.rest_values.size()) > kOwnRests * double(h.rests);
 }
 
-bool is_steps(const Habit& h) {
+bool is_steps(const SignalStatistics& h) {
   const bool rests_at_zero = h.rest_values.empty() || h.rest_values.count(0) > 0;
   return rests_at_zero && h.range < kUpAndDown * h.way;
 }
@@ -62,10 +62,10 @@ bool is_steps(const Habit& h) {
 bool is_per_sample(const WheelSignal& signal, bool name_says_so, const std::string& said, const std::string& file) {
   if (!said.empty()) return said == "per-sample";
   if (name_says_so) return true;
-  const Habit habit = habit_of(signal.value);
-  if (habit.range == 0) return false;  // a wheel that stands still is one by any reading; the checks will name it
-  if (is_sum(habit)) return false;
-  if (is_steps(habit)) return true;
+  const SignalStatistics statistics = statistics_of(signal.value);
+  if (statistics.range == 0) return false;  // a wheel that stands still is one by any reading; the checks will name it
+  if (is_sum(statistics)) return false;
+  if (is_steps(statistics)) return true;
   throw InputError(fmt::format(
       "{}: whether column '{}' holds the sum or what each sample added cannot be told: give --counts cumulative or "
       "--counts per-sample",

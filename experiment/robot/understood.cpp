@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "experiment/drive_run.h"
+#include "experiment/drive/drive_run.h"
 
 namespace umbsim {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/scenario.h"
+#include "experiment/scenario/scenario.h"
 
 namespace umbsim {
 

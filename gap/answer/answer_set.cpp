@@ -12,8 +12,9 @@ constexpr std::size_t kMostFaint = 2;  // effects that stand beside "none", what
 constexpr double kAlikeFaint = 10;     // times the smallest p-value
 
 bool holds_all(const Fit& fit, const Fit& part) {
-  return std::all_of(part.families.begin(), part.families.end(), [&](const Family& f) {
-    return std::any_of(fit.families.begin(), fit.families.end(), [&](const Family& g) { return g.effect == f.effect; });
+  return std::all_of(part.hypotheses.begin(), part.hypotheses.end(), [&](const Hypothesis& f) {
+    return std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(),
+                       [&](const Hypothesis& g) { return g.effect == f.effect; });
   });
 }
 
@@ -38,9 +39,9 @@ void add_what_explains(const Fit& best, const Fit& none, Diagnosis& d) {
   add_to_set(best.name(), d);
   const double all = best.log_evidence - none.log_evidence;
   for (const Cause& c : d.causes) {
-    const bool part = c.fit.families.size() == 1 &&
-                      std::any_of(best.families.begin(), best.families.end(),
-                                  [&](const Family& f) { return f.effect == c.fit.families.front().effect; });
+    const bool part = c.fit.hypotheses.size() == 1 &&
+                      std::any_of(best.hypotheses.begin(), best.hypotheses.end(),
+                                  [&](const Hypothesis& f) { return f.effect == c.fit.hypotheses.front().effect; });
     if (part && c.fit.log_evidence - none.log_evidence > kGoodPart * all) add_to_set(c.name, d);
   }
 }
@@ -48,7 +49,7 @@ void add_what_explains(const Fit& best, const Fit& none, Diagnosis& d) {
 void add_what_counts_show(const Model& model, const Fit& none, const Thresholds& t, Diagnosis& d) {
   const double before = model.counts_misfit(none.predicted);
   for (const Cause& c : d.causes) {
-    if (c.fit.families.size() != 1 || !shows_in_counts(find_effect(c.fit.families.front().effect))) continue;
+    if (c.fit.hypotheses.size() != 1 || !shows_in_counts(find_effect(c.fit.hypotheses.front().effect))) continue;
     if (before - model.counts_misfit(c.fit.predicted) < 2 * t.plainly_shown) continue;
     add_to_set(c.name, d);
   }
@@ -58,11 +59,11 @@ void add_doubtful(const std::vector<Fit>& doubtful, const Fit& none, Diagnosis& 
   const Cause& first = d.causes.front();
   if (first.name == "unknown") return;
   const bool nothing = first.name == "none";
-  const std::size_t effects = (nothing ? 0 : first.fit.families.size()) + 1;
+  const std::size_t effects = (nothing ? 0 : first.fit.hypotheses.size()) + 1;
   const double known = nothing ? none.log_evidence : first.fit.log_evidence;
   const Fit* likeliest = nullptr;
   for (const Fit& f : doubtful) {
-    if (f.families.size() != effects || f.log_evidence < known + kHint) continue;
+    if (f.hypotheses.size() != effects || f.log_evidence < known + kHint) continue;
     if (!nothing && !holds_all(f, first.fit)) continue;
     if (!likeliest || f.log_evidence > likeliest->log_evidence) likeliest = &f;
   }

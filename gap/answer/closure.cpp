@@ -48,12 +48,12 @@ Closure held_out_closure(const Model& model, const Fit& fit) {
   for (const std::size_t r : model.all_runs()) {
     conditions[model.condition(r)].push_back(r);
   }
-  if (fit.families.empty() || conditions.size() < 2) return closure;
+  if (fit.hypotheses.empty() || conditions.size() < 2) return closure;
   std::vector<double> before(runs);
   std::vector<double> after(runs);
   const auto noise = noise_misfits_m2(model, kDraws);
   std::vector<double> floor(runs);
-  const std::size_t parts = fit.families.size();
+  const std::size_t parts = fit.hypotheses.size();
   std::vector<TrackMisfit> without(parts);  // sums over the runs
   double before_rad2 = 0;
   double after_rad2 = 0;

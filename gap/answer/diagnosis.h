@@ -7,7 +7,7 @@
 
 namespace umbsim::gap {
 
-/// One explanation of the gap. "none": no fit's families; "unknown": not an effect at all.
+/// One explanation of the gap. "none": no fit's hypotheses; "unknown": not an effect at all.
 struct Cause {
   std::string name;
   Fit fit;
@@ -51,7 +51,7 @@ struct Closure {
   double most_noise_mm = 0;  ///< and what it exceeds once in twenty times
   double before_deg = 0;     ///< root mean square heading error at the ends
   double after_deg = 0;
-  std::vector<Worth> worth;  ///< of each of the fit's families, beside the others
+  std::vector<Worth> worth;  ///< of each of the fit's hypotheses, beside the others
 
   Worth together() const { return {before_mm - after_mm, before_deg - after_deg}; }
 };
@@ -83,7 +83,7 @@ struct Diagnosis {
   Fit twin;  ///< of its effects, those that foretell held-out runs; none where the twin is the scenario as it was
   Closure closure;  ///< of the twin
   Remainder remainder;
-  bool twin_is_nominal() const { return twin.families.empty(); }
+  bool twin_is_nominal() const { return twin.hypotheses.empty(); }
   NoiseModel noise;  ///< as estimated from the runs
   double noise_floor_mm = 0;
   double before_mm = 0;             ///< root mean square position error of the scenario as it was

@@ -8,7 +8,7 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr double kMostOfCounts = 0.8;  // of what counts miss, for a demand to be the cause
+constexpr double kMostOfCounts = 0.8;  // of what counts miss, for a commanded motion to be the cause
 constexpr double kMostSteady = 0.3;    // of what anything could explain, that goes on at constant speed, the same
 
 }  // namespace
@@ -26,16 +26,16 @@ std::optional<Fit> with_uneven_floor(const Model& model, const Fit& none, const 
   return on_uneven_floor(beside, *floor);
 }
 
-std::optional<Fit> plain_demand(const Model& model, const std::vector<Cause>& causes, const Fit& none,
-                                double generic_none, const Thresholds& t) {
+std::optional<Fit> shown_commanded_motion(const Model& model, const std::vector<Cause>& causes, const Fit& none,
+                                          double generic_none, const Thresholds& t) {
   // What goes wrong at constant speed is not its doing.
   if (steady_gain(model, none) > kMostSteady * generic_none) return {};
   const double before = model.counts_misfit(none.predicted);
   std::optional<Fit> found;
   double most = std::max(2 * t.plainly_shown, kMostOfCounts * before);
   for (const Cause& c : causes) {
-    const bool demand = c.fit.families.size() == 1 && is_demand(c.fit.families.front().effect);
-    const double shown = demand ? before - model.counts_misfit(c.fit.predicted) : 0;
+    const bool commanded = c.fit.hypotheses.size() == 1 && is_commanded_motion(c.fit.hypotheses.front().effect);
+    const double shown = commanded ? before - model.counts_misfit(c.fit.predicted) : 0;
     if (shown < most) continue;
     found = c.fit;
     most = shown;

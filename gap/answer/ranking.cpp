@@ -19,7 +19,7 @@ constexpr double kEqual = 1;           // log evidence
 // Which numbers a fit leaves free.
 std::vector<std::string> free_numbers(const Fit& fit) {
   std::vector<std::string> names;
-  for (const Family& f : fit.families) names.push_back(f.effect + f.variant);
+  for (const Hypothesis& f : fit.hypotheses) names.push_back(f.effect + f.variant);
   return names;
 }
 
@@ -29,7 +29,7 @@ std::vector<Cause> ranked(const std::vector<Fit>& fits, const Thresholds& t) {
   std::map<std::string, Cause> best;
   const double none = fits.front().log_evidence;
   for (const Fit& fit : fits) {
-    const double score = fit.log_evidence - none - t.effect_cost * double(fit.families.size());
+    const double score = fit.log_evidence - none - t.effect_cost * double(fit.hypotheses.size());
     const auto [found, fresh] = best.try_emplace(fit.name(), Cause{fit.name(), fit, score, 0});
     if (!fresh && score > found->second.score) found->second = Cause{fit.name(), fit, score, 0};
   }
@@ -55,12 +55,12 @@ void give_probabilities(std::vector<Cause>& causes) {
 std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, const Thresholds& t) {
   const Fit none = fits.front();
   std::stable_sort(fits.begin(), fits.end(),
-                   [](const Fit& a, const Fit& b) { return a.families.size() < b.families.size(); });
+                   [](const Fit& a, const Fit& b) { return a.hypotheses.size() < b.hypotheses.size(); });
   std::vector<Fit> kept;
   for (Fit& fit : fits) {
     const bool worthwhile = std::all_of(kept.begin(), kept.end(), [&](const Fit& simpler) {
-      if (simpler.families.empty()) return true;
-      const double extra = double(fit.families.size()) - double(simpler.families.size());
+      if (simpler.hypotheses.empty()) return true;
+      const double extra = double(fit.hypotheses.size()) - double(simpler.hypotheses.size());
       return extra <= 0 || pays(model, simpler, fit, addition_needed(model, simpler, none, t), extra);
     });
     if (worthwhile) kept.push_back(std::move(fit));
@@ -69,14 +69,14 @@ std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, con
 }
 
 void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const Thresholds& t) {
-  while (causes.front().fit.families.size() > 1) {
+  while (causes.front().fit.hypotheses.size() > 1) {
     const Cause& front = causes.front();
-    const auto& families = front.fit.families;
-    const auto dimension = [](const Family& f) { return is_dimension(f.effect); };
-    if (model.tracker_is_free() && std::all_of(families.begin(), families.end(), dimension)) return;
+    const auto& hypotheses = front.fit.hypotheses;
+    const auto dimension = [](const Hypothesis& f) { return is_dimension(f.effect); };
+    if (model.tracker_is_free() && std::all_of(hypotheses.begin(), hypotheses.end(), dimension)) return;
     const double counts = model.counts_misfit(front.fit.predicted);
     const auto simpler = std::find_if(causes.begin(), causes.end(), [&](const Cause& c) {
-      return !c.fit.families.empty() && c.fit.families.size() < front.fit.families.size() &&
+      return !c.fit.hypotheses.empty() && c.fit.hypotheses.size() < front.fit.hypotheses.size() &&
              c.score > (1 - kLittle) * front.score && model.counts_misfit(c.fit.predicted) < counts + 2 * t.addition;
     });
     if (simpler == causes.end()) return;
@@ -87,11 +87,12 @@ void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const 
   }
 }
 
-void prefer_what_rolls(std::vector<Cause>& causes) {
+void prefer_kinematic(std::vector<Cause>& causes) {
   const Cause& front = causes.front();
-  if (front.fit.only_rolls()) return;
+  if (front.fit.is_kinematic()) return;
   const auto equal = std::find_if(causes.begin(), causes.end(), [&](const Cause& c) {
-    return c.fit.only_rolls() && c.fit.families.size() == front.fit.families.size() && c.score > front.score - kEqual;
+    return c.fit.is_kinematic() && c.fit.hypotheses.size() == front.fit.hypotheses.size() &&
+           c.score > front.score - kEqual;
   });
   if (equal == causes.end()) return;
   equal->score = front.score;

@@ -19,7 +19,7 @@ std::vector<Cause> ranked(const std::vector<Fit>& fits, const Thresholds& thresh
 void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const Thresholds& thresholds);
 
 /// Of explanations that are equally good, one goes first in which no contact takes part: it is the same on any floor.
-void prefer_what_rolls(std::vector<Cause>& causes);
+void prefer_kinematic(std::vector<Cause>& causes);
 
 /// From their scores.
 void give_probabilities(std::vector<Cause>& causes);

@@ -12,7 +12,7 @@ namespace umbsim::gap {
 std::vector<Effect> twin_effects(const Fit& fit) {
   std::vector<Effect> effects;
   Eigen::Index at = 0;
-  for (const Family& f : fit.families) {
+  for (const Hypothesis& f : fit.hypotheses) {
     const Eigen::VectorXd p = fit.p.segment(at, Eigen::Index(f.parameters.size()));
     at += p.size();
     if (f.shape_unknown) continue;
@@ -32,7 +32,7 @@ void add_nothing(Closure& closure) {
 // tracker's whose frame and clock are free. A place or a moment mends a part of any misfit.
 bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure) {
   if (!closure.known || fit.is_local()) return false;
-  if (!model.tracker_is_free()) return !fit.only_rolls() && closure.together().mm > closure.after_mm;
+  if (!model.tracker_is_free()) return !fit.is_kinematic() && closure.together().mm > closure.after_mm;
   return closure.after_mm <= closure.most_noise_mm || closure.together().mm > closure.after_mm;
 }
 
@@ -54,12 +54,12 @@ Remainder remainder_of(const Model& model, const Screen& screen, const Fit& none
   const Fit& twin = d.twin_is_nominal() ? none : d.twin;
   rest.mm = d.closure.known ? d.closure.after_mm : 1000 * std::sqrt(mean_square_error_m2(model, twin.predicted.tracks));
   rest.share = d.closure.known ? std::max(0.0, 1 - d.closure.fraction) : d.twin_is_nominal() ? 1 : 0;
-  const auto unfitted = [](const Family& f) { return f.shape_unknown; };
-  const auto& families = d.explanation.families;
-  if (!d.unexplained || std::any_of(families.begin(), families.end(), unfitted)) return rest;
+  const auto unfitted = [](const Hypothesis& f) { return f.shape_unknown; };
+  const auto& hypotheses = d.explanation.hypotheses;
+  if (!d.unexplained || std::any_of(hypotheses.begin(), hypotheses.end(), unfitted)) return rest;
   const std::vector<Screen::Candidate> more = screen.on_top_of(d.explanation);
   if (more.empty() || more.front().gain <= 0) return rest;
-  rest.pattern = pattern_of(more.front().family.effect);
+  rest.pattern = pattern_of(more.front().hypothesis.effect);
   rest.in_catalogue = more.front().gain > 0.5 * leftover;
   return rest;
 }

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "gap/evidence/generic.h"
-#include "gap/evidence/kicks.h"
+#include "gap/evidence/impulsive_residuals.h"
 
 namespace umbsim::gap {
 namespace {
@@ -17,17 +17,18 @@ double lack_of_fit(const Model& model, const Fit& fit, const Thresholds& t) {
   return std::max(0.0, fit.misfit - (1 + t.noise_error) * model.rows()) / 2;
 }
 
-// What counts stray from commands, and from the course's demand, beyond their scatter, as log evidence. A single demand
-// drowns in the scatter of the counts of many runs, so it is also looked at alone.
+// What counts stray from commands, and from the course's speeds, beyond their scatter, as log evidence. A single
+// commanded motion drowns in the scatter of the counts of many runs, so it is also looked at alone.
 double counts_left(const Model& model, const Fit& fit) {
   const auto beyond = [](double misfit, double n) { return std::max(0.0, misfit - n - 3 * std::sqrt(2 * n)) / 2; };
-  return std::max(beyond(model.counts_misfit(fit.predicted), model.count_rows()),
-                  beyond(model.habits_misfit(fit.predicted), double(std::tuple_size<Habits>::value)));
+  return std::max(
+      beyond(model.counts_misfit(fit.predicted), model.count_rows()),
+      beyond(model.command_features_misfit(fit.predicted), double(std::tuple_size<CommandFeatures>::value)));
 }
 
-// A kick that is left at a place or at a moment, as log evidence beyond what a difference of engines makes.
+// An impulse that is left at a place or at a moment, as log evidence beyond what a difference of engines makes.
 double sudden_left(const Model& model, const Fit& fit, const Thresholds& t) {
-  return std::max(0.0, strongest(find_kicks(model, fit)) - t.sudden);
+  return std::max(0.0, strongest(find_impulses(model, fit)) - t.sudden);
 }
 
 // The same of readings that do not go with the counts. Engines differ in this by much: it says that a cause is not what
@@ -39,8 +40,8 @@ double late_left(const Model& model, const Fit& fit, const Thresholds& t) {
 // As a share of what is explained. A cable shakes each engine's robot in its own way; where a push, a patch or a hole
 // is named the rest of what happened there is its doing, too.
 double sudden_that_may_be_left(const Fit& fit, const Thresholds& t) {
-  const auto cable = [](const Family& f) { return f.effect == "bump"; };
-  const bool shakes = std::any_of(fit.families.begin(), fit.families.end(), cable);
+  const auto cable = [](const Hypothesis& f) { return f.effect == "bump"; };
+  const bool shakes = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(), cable);
   return fit.is_local() && !shakes ? t.sudden_beside_local : t.sudden_or_late_left;
 }
 
@@ -50,23 +51,23 @@ double LeftUnexplained::all() const { return std::max({steady, lack, sudden, lat
 
 LeftUnexplained left_unexplained(const Model& model, const Fit& fit, const Thresholds& t) {
   return {generic_gain(model, fit) + counts_left(model, fit), lack_of_fit(model, fit, t), sudden_left(model, fit, t),
-          fit.families.empty() ? 0 : late_left(model, fit, t)};
+          fit.hypotheses.empty() ? 0 : late_left(model, fit, t)};
 }
 
 double may_be_left(const Fit& fit, double explained, const Thresholds& t) {
-  const auto toe = [](const Family& f) { return f.effect == "wheel_misalignment"; };
-  const bool toed = std::any_of(fit.families.begin(), fit.families.end(), toe);
+  const auto toe = [](const Hypothesis& f) { return f.effect == "wheel_misalignment"; };
+  const bool toed = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(), toe);
   // Of what is left and explained together a share of s is left where s / (1 - s) of the explained is.
   const auto beside = [&](double known_share) { return (1 - known_share) / known_share * std::max(0.0, explained); };
   const double left = beside(toed ? t.known_share_of_toe : t.known_share);
-  return fit.only_rolls() ? std::min(left, std::max(t.left_by_rolling, beside(t.known_share_of_rolling))) : left;
+  return fit.is_kinematic() ? std::min(left, std::max(t.left_by_rolling, beside(t.known_share_of_rolling))) : left;
 }
 
 double enough_to_detect(const std::vector<std::string>& effects, const Thresholds& t) {
   // A contact's width does what a wheelbase does, and engines differ in turns by no more for the one than for the
   // other.
   const auto same_for_all_engines = [](const std::string& e) {
-    return only_rolls(e) || is_demand(e) || e == "contact_patch";
+    return is_kinematic(e) || is_commanded_motion(e) || e == "contact_patch";
   };
   return std::all_of(effects.begin(), effects.end(), same_for_all_engines) ? t.detect_rolling : t.detect;
 }

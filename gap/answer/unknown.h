@@ -12,7 +12,7 @@ namespace umbsim::gap {
 struct LeftUnexplained {
   double steady = 0;  ///< errors of no particular cause, and counts that stray from commands
   double lack = 0;    ///< misfit beyond noise, where the noise is known from repeated runs
-  double sudden = 0;  ///< a kick at a place or at a moment, beyond what a difference of engines makes
+  double sudden = 0;  ///< an impulse at a place or at a moment, beyond what a difference of engines makes
   double late = 0;    ///< readings that do not go with the counts, the same
   double all() const;
 };

@@ -62,9 +62,9 @@ std::vector<SegmentScore> segment_scores(const Model& model, const Fit& fit) {
     for (const Part& part : parts_of(model, r)) {
       Eigen::MatrixXd raw(3 * Eigen::Index(filter.samples()), 3);
       for (int c = 0; c < 3; ++c) {
-        std::vector<Eigen::Vector3d> kicks(filter.samples(), Eigen::Vector3d::Zero());
-        for (std::size_t i = 0; i < kicks.size(); ++i) kicks[i][c] = part.rates[i][c];
-        raw.col(c) = filter.propagate(kicks);
+        std::vector<Eigen::Vector3d> impulses(filter.samples(), Eigen::Vector3d::Zero());
+        for (std::size_t i = 0; i < impulses.size(); ++i) impulses[i][c] = part.rates[i][c];
+        raw.col(c) = filter.propagate(impulses);
       }
       const Eigen::MatrixXd white = filter.whiten(raw);
       Eigen::Matrix3d M = kRateSd.asDiagonal() * (white.transpose() * white) * kRateSd.asDiagonal();

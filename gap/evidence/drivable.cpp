@@ -6,13 +6,13 @@
 namespace umbsim::gap {
 namespace {
 
-std::vector<std::vector<Effect>> stepped(const Family& family) {
-  if (!family.from_zero) return {effects_of(family, start_of(family))};
+std::vector<std::vector<Effect>> stepped(const Hypothesis& hypothesis) {
+  if (!hypothesis.from_zero) return {effects_of(hypothesis, start_of(hypothesis))};
   std::vector<std::vector<Effect>> all;
-  for (Eigen::Index i = 0; i < Eigen::Index(family.parameters.size()); ++i) {
-    Eigen::VectorXd p = start_of(family);
-    p[i] += family.parameters[std::size_t(i)].step;
-    all.push_back(effects_of(family, p));
+  for (Eigen::Index i = 0; i < Eigen::Index(hypothesis.parameters.size()); ++i) {
+    Eigen::VectorXd p = start_of(hypothesis);
+    p[i] += hypothesis.parameters[std::size_t(i)].step;
+    all.push_back(effects_of(hypothesis, p));
   }
   return all;
 }
@@ -26,17 +26,17 @@ bool can_be_driven(const Model& model, const std::vector<std::vector<Effect>>& s
   return true;
 }
 
-bool adapt_steps(const Model& model, Family& family) {
-  if (!family.from_zero) return can_be_driven(model, stepped(family));
-  for (std::size_t i = 0; i < family.parameters.size(); ++i) {
-    FreeParameter& parameter = family.parameters[i];
+bool adapt_steps(const Model& model, Hypothesis& hypothesis) {
+  if (!hypothesis.from_zero) return can_be_driven(model, stepped(hypothesis));
+  for (std::size_t i = 0; i < hypothesis.parameters.size(); ++i) {
+    FreeParameter& parameter = hypothesis.parameters[i];
     const double whole = parameter.step;
     bool found = false;
     for (const double share : {1.0, -1.0, 1.0 / 4, -1.0 / 4, 1.0 / 16, -1.0 / 16, 1.0 / 64, -1.0 / 64}) {
       const double at = parameter.start + share * whole;
       if (at < parameter.min || at > parameter.max) continue;
       parameter.step = share * whole;
-      found = can_be_driven(model, {stepped(family)[i]});
+      found = can_be_driven(model, {stepped(hypothesis)[i]});
       if (found) break;
     }
     if (!found) return false;
@@ -46,14 +46,14 @@ bool adapt_steps(const Model& model, Family& family) {
 
 }  // namespace
 
-std::vector<Family> drivable(const Model& model, std::vector<Family> families) {
+std::vector<Hypothesis> drivable(const Model& model, std::vector<Hypothesis> hypotheses) {
   std::vector<std::vector<Effect>> all;
-  for (const Family& f : families) {
+  for (const Hypothesis& f : hypotheses) {
     for (std::vector<Effect>& effects : stepped(f)) all.push_back(std::move(effects));
   }
-  if (can_be_driven(model, all)) return families;
-  std::erase_if(families, [&](Family& f) { return !adapt_steps(model, f); });
-  return families;
+  if (can_be_driven(model, all)) return hypotheses;
+  std::erase_if(hypotheses, [&](Hypothesis& f) { return !adapt_steps(model, f); });
+  return hypotheses;
 }
 
 }  // namespace umbsim::gap

@@ -21,14 +21,14 @@ std::vector<int> first_columns(Eigen::Index n) {
   return columns;
 }
 
-std::vector<FreeParameter> free_parameters(const std::vector<Family>& families) {
+std::vector<FreeParameter> free_parameters(const std::vector<Hypothesis>& hypotheses) {
   std::vector<FreeParameter> free;
-  for (const Family& f : families) free.insert(free.end(), f.parameters.begin(), f.parameters.end());
+  for (const Hypothesis& f : hypotheses) free.insert(free.end(), f.parameters.begin(), f.parameters.end());
   return free;
 }
 
-Eigen::VectorXd prior_sd(const std::vector<Family>& families) {
-  const std::vector<FreeParameter> free = free_parameters(families);
+Eigen::VectorXd prior_sd(const std::vector<Hypothesis>& hypotheses) {
+  const std::vector<FreeParameter> free = free_parameters(hypotheses);
   Eigen::VectorXd sd(Eigen::Index(free.size()));
   for (Eigen::Index i = 0; i < sd.size(); ++i) sd[i] = free[std::size_t(i)].prior_sd;
   return sd;
@@ -61,10 +61,10 @@ double Model::log_chance(const std::vector<Effect>& effects) const {
 
 double Model::log_evidence(const Fit& fit, const std::vector<std::size_t>& runs) const {
   const Eigen::VectorXd shift = shifted(nuisances(), fit.p);
-  const Eigen::VectorXd s = prior_sd(fit.families);
+  const Eigen::VectorXd s = prior_sd(fit.hypotheses);
   const Evidence e = evidence(fit.grams, runs, first_columns(shift.size()), with_more(nuisance_sds(), s), shift);
   double cost = -fit.log_chance;
-  for (const Family& f : fit.families) cost += f.search_cost + f.variant_cost;
+  for (const Hypothesis& f : fit.hypotheses) cost += f.search_cost + f.variant_cost;
   if (!fit.linear) {
     // The simulator bends: the density where the descent ended, and the width that the derivatives give there.
     double log_density = evidence(fit.grams, runs, first_columns(nuisances()), nuisance_sds()).log_density;
@@ -75,7 +75,7 @@ double Model::log_evidence(const Fit& fit, const std::vector<std::size_t>& runs)
   double log_density = e.log_density - cost;
   // A number that cannot be negative has half a normal for its prior.
   Eigen::Index i = nuisances();
-  for (const FreeParameter& p : free_parameters(fit.families)) {
+  for (const FreeParameter& p : free_parameters(fit.hypotheses)) {
     if (p.min >= 0) log_density += log_normal_cdf(e.mean[i] / std::sqrt(e.covariance(i, i))) + std::log(2.0);
     ++i;
   }
@@ -84,13 +84,13 @@ double Model::log_evidence(const Fit& fit, const std::vector<std::size_t>& runs)
 
 Eigen::VectorXd Model::numbers_on(const Fit& fit, const std::vector<std::size_t>& runs) const {
   const Eigen::VectorXd shift = shifted(nuisances(), fit.p);
-  const Eigen::VectorXd s = prior_sd(fit.families);
+  const Eigen::VectorXd s = prior_sd(fit.hypotheses);
   const Evidence e = evidence(fit.grams, runs, first_columns(shift.size()), with_more(nuisance_sds(), s), shift);
   Fit other = fit;
   other.p = e.mean.tail(fit.p.size());
   Eigen::Index i = 0;
   bool all_told = true;
-  for (const FreeParameter& p : free_parameters(fit.families)) {
+  for (const FreeParameter& p : free_parameters(fit.hypotheses)) {
     // What happened in one run alone no other run can tell: the number stays as it is.
     const double sd_left = std::sqrt(e.covariance(nuisances() + i, nuisances() + i));
     const bool told = sd_left < 0.8 * p.prior_sd;
@@ -103,28 +103,28 @@ Eigen::VectorXd Model::numbers_on(const Fit& fit, const std::vector<std::size_t>
   // Where the simulator bends the derivatives may point off the hill: the better of both starts.
   const auto density = [&](const Eigen::VectorXd& p) {
     try {
-      return density_at(fit.families, p, runs);
+      return density_at(fit.hypotheses, p, runs);
     } catch (const std::runtime_error&) {
       return -1e300;  // it cannot be driven so
     }
   };
   const bool astray = density(fit.p) > density(other.p);
-  return this->fit(fit.families, astray ? fit.p : other.p, kRoundsAgain, runs).p;
+  return this->fit(fit.hypotheses, astray ? fit.p : other.p, kRoundsAgain, runs).p;
 }
 
 Fit Model::without(const Fit& whole, std::size_t out) const {
-  std::vector<Family> families;
+  std::vector<Hypothesis> hypotheses;
   std::vector<double> start;
   Eigen::Index at = 0;
-  for (std::size_t i = 0; i < whole.families.size(); ++i) {
-    const Eigen::Index n = Eigen::Index(whole.families[i].parameters.size());
+  for (std::size_t i = 0; i < whole.hypotheses.size(); ++i) {
+    const Eigen::Index n = Eigen::Index(whole.hypotheses[i].parameters.size());
     if (i != out) {
-      families.push_back(whole.families[i]);
+      hypotheses.push_back(whole.hypotheses[i]);
       start.insert(start.end(), whole.p.data() + at, whole.p.data() + at + n);
     }
     at += n;
   }
-  return fit(families, Eigen::Map<Eigen::VectorXd>(start.data(), Eigen::Index(start.size())));
+  return fit(hypotheses, Eigen::Map<Eigen::VectorXd>(start.data(), Eigen::Index(start.size())));
 }
 
 void Model::score(Fit& fit) const {
@@ -156,10 +156,10 @@ Fit Model::none() const {
   return fit;
 }
 
-double Model::density_at(const std::vector<Family>& families, const Eigen::VectorXd& p,
+double Model::density_at(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& p,
                          const std::vector<std::size_t>& some) const {
   Fit fit;
-  fit.families = families;
+  fit.hypotheses = hypotheses;
   fit.p = p;
   const std::vector<std::size_t> runs = some.empty() ? all_runs() : some;
   const Predicted predicted = predict({fit.effects()}, runs).front();
@@ -169,13 +169,13 @@ double Model::density_at(const std::vector<Family>& families, const Eigen::Vecto
 
 // Derivatives at the fit's numbers, by a step in every direction.
 Linearisation Model::linearised(const Fit& fit) const {
-  const std::vector<FreeParameter> free = free_parameters(fit.families);
+  const std::vector<FreeParameter> free = free_parameters(fit.hypotheses);
   std::vector<std::vector<Effect>> sets;
   std::vector<double> steps;
   for (Eigen::Index i = 0; i < fit.p.size(); ++i) {
     const FreeParameter& parameter = free[std::size_t(i)];
     Fit stepped;
-    stepped.families = fit.families;
+    stepped.hypotheses = fit.hypotheses;
     stepped.p = fit.p;
     steps.push_back(fit.p[i] + parameter.step > parameter.max ? -parameter.step : parameter.step);
     stepped.p[i] += steps.back();
@@ -236,26 +236,27 @@ Eigen::VectorXd next_numbers(const Fit& fit, const Eigen::VectorXd& optimum, con
 }
 
 // What does not act in proportion takes longer, most of all with the softness of the tyres.
-int rounds_of(const std::vector<Family>& families, int rounds) {
-  const auto any = [&](const auto& is) { return std::any_of(families.begin(), families.end(), is); };
-  if (any([](const Family& f) { return bool(f.with); })) return 2 * rounds;
-  return any([](const Family& f) { return !f.from_zero; }) ? rounds + 1 : rounds;
+int rounds_of(const std::vector<Hypothesis>& hypotheses, int rounds) {
+  const auto any = [&](const auto& is) { return std::any_of(hypotheses.begin(), hypotheses.end(), is); };
+  if (any([](const Hypothesis& f) { return bool(f.with); })) return 2 * rounds;
+  return any([](const Hypothesis& f) { return !f.from_zero; }) ? rounds + 1 : rounds;
 }
 
 }  // namespace
 
 // Gauss-Newton on the density, with steps back where the simulator bends. Derivatives are taken where the descent
 // begins, if none are given, and where it ends, if steps did not go where they pointed.
-Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start, int rounds,
+Fit Model::fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& start, int rounds,
                const std::vector<std::size_t>& some, const std::optional<Linearisation>& given) const {
   const std::vector<std::size_t> runs = some.empty() ? all_runs() : some;
-  const std::vector<FreeParameter> free = free_parameters(families);
+  const std::vector<FreeParameter> free = free_parameters(hypotheses);
   const Eigen::Index m = Eigen::Index(free.size());
-  const Eigen::VectorXd s = prior_sd(families);
+  const Eigen::VectorXd s = prior_sd(hypotheses);
   const std::vector<Eigen::VectorXd> sds = with_more(nuisance_sds(), s);
-  const bool from_zero = std::all_of(families.begin(), families.end(), [](const Family& f) { return f.from_zero; });
+  const bool from_zero =
+      std::all_of(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& f) { return f.from_zero; });
   Fit fit;
-  fit.families = families;
+  fit.hypotheses = hypotheses;
   fit.p.resize(m);
   for (Eigen::Index i = 0; i < m; ++i) fit.p[i] = start.size() == m ? start[i] : free[std::size_t(i)].start;
   Fit best;
@@ -272,7 +273,7 @@ Fit Model::fit(const std::vector<Family>& families, const Eigen::VectorXd& start
     d.known = linearised(at);
     d.learned = false;
   };
-  for (int round = 0; round < rounds_of(families, rounds); ++round) {
+  for (int round = 0; round < rounds_of(hypotheses, rounds); ++round) {
     try {
       fit.predicted = predict({fit.effects()}).front();
       const std::vector<Eigen::VectorXd> there = residuals(fit.predicted);

@@ -20,41 +20,41 @@ constexpr double kDrift = 5e-3;      // metres per metre, in the floor's frame
 constexpr double kTrend = 1e-3;      // of a radius, per run
 constexpr double kOwnRadius = 2e-3;  // of a radius, in one run
 constexpr double kNothing = 1e-12;   // standard deviation of what is not there
-constexpr int kMostHabits = 8;
+constexpr int kMostPatterns = 8;
 constexpr double kModels = 3;              // that are tried
-constexpr int kHabits = kRipples + 2 + 2;  // ripples, drift, trends
+constexpr int kPatterns = kRipples + 2 + 2;  // ripples, drift, trends
 constexpr double kLate_s = 0.01;           // by which what was counted and what was seen may be apart
 constexpr int kLate = 5;
 
 struct Raw {
-  Eigen::MatrixXd habits;
+  Eigen::MatrixXd patterns;
   Eigen::MatrixXd parts;
   Eigen::VectorXd parts_sd;
 };
 
 // What all runs would share: ripples of the heading with the wheels' angles, a drift in the floor's frame, radii that
 // change from run to run.
-Eigen::MatrixXd habit_columns(const Model& model, std::size_t r, const std::vector<Kicks3>& ripples) {
+Eigen::MatrixXd pattern_columns(const Model& model, std::size_t r, const std::vector<Impulses3>& ripples) {
   const auto& path = model.nominal().tracks[r];
   const TrackFilter& filter = model.filter(r);
   const std::size_t n = filter.samples();
-  std::vector<Kicks3> kicks(kHabits, Kicks3(n, Eigen::Vector3d::Zero()));
-  std::copy(ripples.begin(), ripples.end(), kicks.begin());
+  std::vector<Impulses3> impulses(kPatterns, Impulses3(n, Eigen::Vector3d::Zero()));
+  std::copy(ripples.begin(), ripples.end(), impulses.begin());
   for (std::size_t i = 1; i < n; ++i) {
     const double rolled = model.nominal().rolled_m[r][i];
     const double theta = path[i].theta_rad;
-    kicks[kRipples][i] = rolled * Eigen::Vector3d(std::cos(theta), -std::sin(theta), 0);
-    kicks[kRipples + 1][i] = rolled * Eigen::Vector3d(std::sin(theta), std::cos(theta), 0);
+    impulses[kRipples][i] = rolled * Eigen::Vector3d(std::cos(theta), -std::sin(theta), 0);
+    impulses[kRipples + 1][i] = rolled * Eigen::Vector3d(std::sin(theta), std::cos(theta), 0);
   }
   // Both wheels' radii alike and against each other: the one shows in distances, the other in headings by much more.
-  const Kicks3 left = radius_kicks(model.nominal(), r, 0);
-  const Kicks3 right = radius_kicks(model.nominal(), r, 1);
+  const Impulses3 left = radius_impulses(model.nominal(), r, 0);
+  const Impulses3 right = radius_impulses(model.nominal(), r, 1);
   for (std::size_t i = 0; i < n; ++i) {
-    kicks[kRipples + 2][i] = double(r) * (left[i] + right[i]);
-    kicks[kRipples + 3][i] = double(r) * (right[i] - left[i]) / 2;
+    impulses[kRipples + 2][i] = double(r) * (left[i] + right[i]);
+    impulses[kRipples + 3][i] = double(r) * (right[i] - left[i]) / 2;
   }
-  Eigen::MatrixXd columns(3 * Eigen::Index(n), kHabits);
-  for (int i = 0; i < kHabits; ++i) columns.col(i) = filter.propagate(kicks[std::size_t(i)]);
+  Eigen::MatrixXd columns(3 * Eigen::Index(n), kPatterns);
+  for (int i = 0; i < kPatterns; ++i) columns.col(i) = filter.propagate(impulses[std::size_t(i)]);
   return columns;
 }
 
@@ -86,8 +86,8 @@ Raw raw_columns(const Model& model, std::size_t r) {
   const TrackFilter& filter = model.filter(r);
   const std::size_t n = filter.samples();
   const double k = 2 * M_PI / recording.robot.ticks_per_revolution;
-  std::vector<Kicks3> parts(3 * stretches.size(), Kicks3(n, Eigen::Vector3d::Zero()));
-  std::vector<Kicks3> ripples(kRipples, Kicks3(n, Eigen::Vector3d::Zero()));
+  std::vector<Impulses3> parts(3 * stretches.size(), Impulses3(n, Eigen::Vector3d::Zero()));
+  std::vector<Impulses3> ripples(kRipples, Impulses3(n, Eigen::Vector3d::Zero()));
   std::size_t stretch = 0;
   std::size_t e = 0;
   double before[2] = {0, 0};
@@ -109,7 +109,7 @@ Raw raw_columns(const Model& model, std::size_t r) {
       before[w] = angle[w];
     }
   }
-  Raw raw{habit_columns(model, r, ripples), Eigen::MatrixXd(3 * Eigen::Index(n), Eigen::Index(parts.size())),
+  Raw raw{pattern_columns(model, r, ripples), Eigen::MatrixXd(3 * Eigen::Index(n), Eigen::Index(parts.size())),
           Eigen::VectorXd(Eigen::Index(parts.size()))};
   for (std::size_t i = 0; i < parts.size(); ++i) {
     raw.parts.col(Eigen::Index(i)) = filter.propagate(parts[i]);
@@ -119,8 +119,8 @@ Raw raw_columns(const Model& model, std::size_t r) {
   return raw;
 }
 
-Eigen::VectorXd habits_sd() {
-  Eigen::VectorXd sd(kHabits);
+Eigen::VectorXd patterns_sd() {
+  Eigen::VectorXd sd(kPatterns);
   sd << Eigen::VectorXd::Constant(kRipples, kRipple_rad), kDrift, kDrift, kTrend, kTrend;
   return sd;
 }
@@ -131,14 +131,14 @@ std::vector<int> first_columns(Eigen::Index n) {
   return columns;
 }
 
-// Habits one after another, as long as the next one pays for having been picked among all. `sd`: of the nuisances and
-// of the habits, where there are none.
+// Patterns one after another, as long as the next one pays for having been picked among all. `sd`: of the nuisances and
+// of the patterns, where there are none.
 double shared_density(const Model& model, const std::vector<RunGram>& grams, Eigen::VectorXd sd) {
   Eigen::VectorXd wide(sd.size());
-  wide << model.unexplained_sd(), habits_sd();
+  wide << model.unexplained_sd(), patterns_sd();
   const auto density = [&] { return evidence(grams, model.all_runs(), first_columns(sd.size()), sd).log_density; };
   double best = density();
-  for (int round = 0; round < kMostHabits; ++round) {
+  for (int round = 0; round < kMostPatterns; ++round) {
     Eigen::Index next = -1;
     double with = best + std::log(double(sd.size()));
     for (Eigen::Index i = 0; i < sd.size(); ++i) {
@@ -171,10 +171,10 @@ double density_of(const Model& model, const std::vector<RunGram>& grams, const E
   return evidence(grams, model.all_runs(), columns, with_more(model.nuisance_sds(), sizes)).log_density;
 }
 
-// The density of habits under whichever prior of the nuisances gives more of it.
-double density_of_habits(const Model& model, const std::vector<RunGram>& grams) {
+// The density of patterns under whichever prior of the nuisances gives more of it.
+double density_of_patterns(const Model& model, const std::vector<RunGram>& grams) {
   double most = -1e300;
-  for (const Eigen::VectorXd& sd : with_more(model.nuisance_sds(), Eigen::VectorXd::Constant(kHabits, kNothing))) {
+  for (const Eigen::VectorXd& sd : with_more(model.nuisance_sds(), Eigen::VectorXd::Constant(kPatterns, kNothing))) {
     most = std::max(most, shared_density(model, grams, sd));
   }
   return most - std::log(double(model.nuisance_sds().size()));
@@ -196,7 +196,7 @@ double gain_of(const Model& model, const Fit& fit, const std::function<Eigen::Ma
 
 double steady_gain(const Model& model, const Fit& fit) {
   return gain_of(
-      model, fit, [&](std::size_t r) { return raw_columns(model, r).habits; }, habits_sd());
+      model, fit, [&](std::size_t r) { return raw_columns(model, r).patterns; }, patterns_sd());
 }
 
 double late_gain(const Model& model, const Fit& fit) {
@@ -207,20 +207,20 @@ double late_gain(const Model& model, const Fit& fit) {
 double generic_gain(const Model& model, const Fit& fit) {
   const std::size_t runs = model.recording().runs.size();
   const std::vector<Eigen::VectorXd> residual = model.residuals(fit.predicted);
-  std::vector<Eigen::MatrixXd> habits(runs);
+  std::vector<Eigen::MatrixXd> patterns(runs);
   std::vector<LocalColumns> parts(runs);
   std::vector<LocalColumns> radii(runs);
   tbb::parallel_for(std::size_t(0), runs, [&](std::size_t r) {
     const Raw raw = raw_columns(model, r);
-    habits[r] = whitened(model, r, raw.habits, residual[r].size());
+    patterns[r] = whitened(model, r, raw.patterns, residual[r].size());
     parts[r].columns = whitened(model, r, raw.parts, residual[r].size());
     parts[r].prior_sd = raw.parts_sd;
     radii[r] = {model.own_columns(r).leftCols(2), Eigen::VectorXd::Constant(2, kOwnRadius)};
   });
   const Eigen::VectorXd rippled = Eigen::VectorXd::Constant(kRipples, kRipple_rad);
-  const double best = std::max({density_of_habits(model, model.grams(residual, habits)),
+  const double best = std::max({density_of_patterns(model, model.grams(residual, patterns)),
                                 density_of(model, model.grams(residual, {}, radii)),
-                                density_of(model, model.grams(residual, habits, parts), rippled)});
+                                density_of(model, model.grams(residual, patterns, parts), rippled)});
   return best - std::log(kModels) - density_of(model, model.grams(residual, {}));
 }
 

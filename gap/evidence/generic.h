@@ -5,7 +5,7 @@
 namespace umbsim::gap {
 
 /// Log evidence that errors of no particular cause gain on top of a fit. The best of three models counts:
-/// - habits that all runs of a driving condition share: legs and turns longer or more curved than predicted, the
+/// - patterns that all runs of a driving condition share: legs and turns longer or more curved than predicted, the
 ///   heading rippling with either wheel's angle, a drift over the floor, radii that change from run to run;
 /// - radii that differ from run to run by more than they should;
 /// - every leg and turn of every run on its own.

@@ -32,10 +32,10 @@ std::vector<Effect> Fit::effects() const { return effects_at(p); }
 std::vector<Effect> Fit::effects_at(const Eigen::VectorXd& numbers, std::size_t without) const {
   std::vector<Effect> all;
   Eigen::Index at = 0;
-  for (std::size_t i = 0; i < families.size(); ++i) {
-    const Eigen::Index n = Eigen::Index(families[i].parameters.size());
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    const Eigen::Index n = Eigen::Index(hypotheses[i].parameters.size());
     if (i != without) {
-      for (Effect& e : effects_of(families[i], numbers.segment(at, n))) all.push_back(std::move(e));
+      for (Effect& e : effects_of(hypotheses[i], numbers.segment(at, n))) all.push_back(std::move(e));
     }
     at += n;
   }
@@ -44,17 +44,18 @@ std::vector<Effect> Fit::effects_at(const Eigen::VectorXd& numbers, std::size_t 
 
 std::string Fit::name() const {
   std::set<std::string> names;
-  for (const Family& f : families) names.insert(f.effect);
+  for (const Hypothesis& f : hypotheses) names.insert(f.effect);
   if (names.empty()) return "none";
   return fmt::format("{}", fmt::join(names, "+"));
 }
 
-bool Fit::only_rolls() const {
-  return std::all_of(families.begin(), families.end(), [](const Family& f) { return gap::only_rolls(f.effect); });
+bool Fit::is_kinematic() const {
+  return std::all_of(hypotheses.begin(), hypotheses.end(),
+                     [](const Hypothesis& f) { return gap::is_kinematic(f.effect); });
 }
 
 bool Fit::is_local() const {
-  return std::any_of(families.begin(), families.end(), [](const Family& f) { return f.search_cost > 0; });
+  return std::any_of(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& f) { return f.search_cost > 0; });
 }
 
 Model::Model(const Campaign& campaign, Simulator simulator, const Scatter& scatter,
@@ -69,16 +70,16 @@ Model::Model(const Campaign& campaign, Simulator simulator, const Scatter& scatt
     const RecordedRun& run = all.runs[r];
     stretches_.push_back(umbsim::stretches(run, all.robot));
     if (&campaign.of(r) == &lead) of_lead.push_back(stretches_.back());
-    measured_.counted.push_back(run.has_commands ? command_features(run, counted_rad(run, all.robot), step_rad_)
-                                                 : CommandFeatures{});
+    measured_.counted.push_back(run.has_commands ? command_response(run, counted_rad(run, all.robot), step_rad_)
+                                                 : CommandResponse{});
   }
-  measured_.habits = measured_habits(lead, of_lead, step);
+  measured_.command_features = measured_command_features(lead, of_lead, step);
   without_effects_ = predict({{}}).front();
-  habits_sd_ = habits_sd(lead, measured_.counted, without_effects_.counted);
+  features_sd_ = command_features_sd(lead, measured_.counted, without_effects_.counted);
   nominal_ = beside(campaign, without_effects_.tracks);
   scatter_.gain =
       gain_scatter(grouped(all.runs, nominal_.origin), measured_.counted, without_effects_.counted, scatter.gain);
-  const double periods = std::exp(measured_.habits[3]);  // between two samples
+  const double periods = std::exp(measured_.command_features[3]);  // between two samples
   for (std::size_t i = 0; i < campaign.parts.size(); ++i) {
     const NominalReplay part = part_of(nominal_, campaign, i);
     noises_[i] = known ? NoiseEstimate{*known, false, {}}
@@ -124,7 +125,7 @@ std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& se
     // Without effects on counts the nominal ones stand.
     all[i].counted = without_effects_.counted;
     all[i].counted.resize(runs);
-    all[i].habits = simulator_.habits ? simulator_.habits(sets[i]) : Habits{};
+    all[i].command_features = simulator_.command_features ? simulator_.command_features(sets[i]) : CommandFeatures{};
   }
   tbb::parallel_for(std::size_t(0), sets.size() * driven.size(), [&](std::size_t i) {
     const std::size_t set = i / driven.size();
@@ -133,7 +134,7 @@ std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& se
     all[set].tracks[r] = simulate_run(r, effects);
     const bool counts = recording().runs[r].has_commands && simulator_.commands;
     if (counts && (effects.empty() || acts_on_counts(effects))) {
-      all[set].counted[r] = command_features(recording().runs[r], simulator_.commands(r, effects), step_rad_);
+      all[set].counted[r] = command_response(recording().runs[r], simulator_.commands(r, effects), step_rad_);
     }
   });
   for (const std::size_t r : driven) simulated_s_ += double(sets.size()) * recording().runs[r].encoders.back().time_s;
@@ -144,12 +145,12 @@ std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& se
 Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const Predicted& b, double lag_sd_s) const {
   Eigen::VectorXd rows = Eigen::VectorXd::Zero(kFeatureRows);
   if (run == 0) {
-    for (std::size_t i = 0; i < a.habits.size(); ++i) {
-      rows[3 + Eigen::Index(i)] = (a.habits[i] - b.habits[i]) / habits_sd_[i];
+    for (std::size_t i = 0; i < a.command_features.size(); ++i) {
+      rows[3 + Eigen::Index(i)] = (a.command_features[i] - b.command_features[i]) / features_sd_[i];
     }
   }
-  const CommandFeatures& x = a.counted[run];
-  const CommandFeatures& y = b.counted[run];
+  const CommandResponse& x = a.counted[run];
+  const CommandResponse& y = b.counted[run];
   if (!measured_.counted[run].known || !x.known || !y.known) return rows;
   const double gain_sd = std::hypot(scatter_.gain, measured_.counted[run].gain_sd);
   rows.head<3>() << (x.left_gain - y.left_gain) / gain_sd, (x.right_gain - y.right_gain) / gain_sd,
@@ -175,13 +176,13 @@ double Model::counts_misfit(const Predicted& predicted) const {
   return sum;
 }
 
-double Model::habits_misfit(const Predicted& predicted) const {
+double Model::command_features_misfit(const Predicted& predicted) const {
   return feature_rows(0, measured_, predicted, scatter_.counts_lag_s).tail(kFeatureRows - 3).squaredNorm();
 }
 
 double Model::count_rows() const {
-  double rows = double(std::tuple_size<Habits>::value);
-  for (const CommandFeatures& counted : measured_.counted) rows += counted.known ? 3 : 0;
+  double rows = double(std::tuple_size<CommandFeatures>::value);
+  for (const CommandResponse& counted : measured_.counted) rows += counted.known ? 3 : 0;
   return rows;
 }
 

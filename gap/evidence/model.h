@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "gap/evidence/evidence.h"
-#include "gap/hypotheses/family.h"
+#include "gap/hypotheses/hypothesis.h"
 #include "gap/noise/noise_estimate.h"
 #include "gap/noise/nuisances.h"
 #include "gap/noise/track_filter.h"
-#include "gap/replay/command_features.h"
+#include "gap/replay/command_response.h"
 #include "gap/replay/nominal_replay.h"
 #include "gap/replay/simulator.h"
-#include "recording/habits.h"
+#include "recording/command_features.h"
 #include "recording/recording.h"
 #include "recording/stretches.h"
 
@@ -22,8 +22,8 @@ namespace umbsim::gap {
 /// What the simulator says of all runs under some effects.
 struct Predicted {
   std::vector<std::vector<Pose2>> tracks;
-  std::vector<CommandFeatures> counted;  ///< counts against commands, of each run
-  Habits habits{};
+  std::vector<CommandResponse> counted;  ///< counts against commands, of each run
+  CommandFeatures command_features{};
 };
 
 /// Columns that belong to one run alone, and are integrated out.
@@ -34,8 +34,8 @@ struct LocalColumns {
 
 /// A fitted combination of effects.
 struct Fit {
-  std::vector<Family> families;
-  Eigen::VectorXd p;  ///< of all families in order
+  std::vector<Hypothesis> hypotheses;
+  Eigen::VectorXd p;  ///< of all hypotheses in order
   Eigen::MatrixXd covariance;
   bool linear = true;       ///< the descent ended where the linear model has its optimum
   double log_chance = 0;    ///< see Model::log_chance; part of the evidence
@@ -48,15 +48,15 @@ struct Fit {
   Eigen::VectorXd nuisance;              ///< posterior mean of the shared nuisances
   Predicted predicted;                   ///< at p
 
-  double size = 0;  ///< root mean square displacement that the last family adds to the tracks, over the noise floor
+  double size = 0;  ///< root mean square displacement that the last hypothesis adds to the tracks, over the noise floor
 
   double seen = 0;  ///< root mean square of the same in the whitened tracks: what makes no way, but shakes, shows here
 
   std::vector<Effect> effects() const;
-  /// The effects with other numbers; `without`: but for those of one family.
+  /// The effects with other numbers; `without`: but for those of one hypothesis.
   std::vector<Effect> effects_at(const Eigen::VectorXd& numbers, std::size_t without = std::size_t(-1)) const;
   std::string name() const;  ///< effects joined by "+", in alphabetical order
-  bool only_rolls() const;   ///< all of its effects do
+  bool is_kinematic() const;  ///< all of its effects do
   bool is_local() const;     ///< one of them is at a place or a moment
 };
 
@@ -95,7 +95,7 @@ class Model {
   bool replicated() const { return replicated_; }
   const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }
   const TrackFilter& filter(std::size_t run) const { return filters_[run]; }
-  const Habits& habits() const { return measured_.habits; }
+  const CommandFeatures& command_features() const { return measured_.command_features; }
   /// Of the drive wheels; 0: not known.
   double wheel_width_m() const { return simulator_.wheel_width_m; }
   double mass_kg() const { return simulator_.mass_kg; }
@@ -134,8 +134,8 @@ class Model {
   /// Sum of squares, in standard deviations, by which a prediction misses counts against commands.
   double counts_misfit(const Predicted& predicted) const;
   double count_rows() const;
-  /// The part of it that is how the robot was driven and read (recording/habits.h).
-  double habits_misfit(const Predicted& predicted) const;
+  /// The part of it that is how the robot was driven and read (recording/command_features.h).
+  double command_features_misfit(const Predicted& predicted) const;
 
   /// Grams of residual, nuisances and the given columns; further columns of each run alone are integrated out.
   std::vector<RunGram> grams(const std::vector<Eigen::VectorXd>& residual, const std::vector<Eigen::MatrixXd>& columns,
@@ -151,19 +151,19 @@ class Model {
   /// it was estimated: 0 or less. 0 where no runs were repeated.
   double log_chance(const std::vector<Effect>& effects) const;
 
-  /// Log density of the data with the families' numbers held at p, against none: how well a start would do. `runs`:
+  /// Log density of the data with the hypotheses' numbers held at p, against none: how well a start would do. `runs`:
   /// that count, and are driven; empty: all.
-  double density_at(const std::vector<Family>& families, const Eigen::VectorXd& p,
+  double density_at(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& p,
                     const std::vector<std::size_t>& runs = {}) const;
 
-  /// Fits the free numbers of the families together, in the simulator. `start`: empty for the families' own. `runs`:
-  /// that count; empty: all. `known`: derivatives that were taken elsewhere, and are used as long as they foretell
-  /// where a step leads.
-  Fit fit(const std::vector<Family>& families, const Eigen::VectorXd& start = {}, int rounds = 7,
+  /// Fits the free numbers of the hypotheses together, in the simulator. `start`: empty for the hypotheses' own.
+  /// `runs`: that count; empty: all. `known`: derivatives that were taken elsewhere, and are used as long as they
+  /// foretell where a step leads.
+  Fit fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& start = {}, int rounds = 7,
           const std::vector<std::size_t>& runs = {}, const std::optional<Linearisation>& known = std::nullopt) const;
 
-  /// The fit of all but one of a fit's families, from their numbers there.
-  Fit without(const Fit& fit, std::size_t family) const;
+  /// The fit of all but one of a fit's hypotheses, from their numbers there.
+  Fit without(const Fit& fit, std::size_t hypothesis) const;
 
   /// The numbers of a fit's effects taken from a subset of the runs: by the fit's derivatives, and where the simulator
   /// bends by fitting again from there.
@@ -186,7 +186,7 @@ class Model {
   std::vector<std::vector<Stretch>> stretches_;
   Predicted measured_;  // what was recorded, without tracks
   Predicted without_effects_;
-  Habits habits_sd_{};  // with which they are measured
+  CommandFeatures features_sd_{};  // with which they are measured
   NominalReplay nominal_;
   std::vector<NoiseEstimate> noises_;  // of each recording; a usual one until it is estimated
   bool replicated_ = false;            // each of them from repeated runs

@@ -12,19 +12,19 @@ namespace umbsim::gap {
 namespace {
 
 // One track of noise: what a run strays, and what the tracker adds.
-Eigen::VectorXd noise_track(const Model& model, std::size_t run, const Kicks3 radius[2], RandomStream& random) {
+Eigen::VectorXd noise_track(const Model& model, std::size_t run, const Impulses3 radius[2], RandomStream& random) {
   const NoiseModel& noise = model.noise(run);
   const auto& rolled_m = model.nominal().rolled_m[run];
   const double scale[2] = {random.normal(0, model.radius_scatter(run)), random.normal(0, model.radius_scatter(run))};
-  Kicks3 kicks(rolled_m.size(), Eigen::Vector3d::Zero());
-  for (std::size_t k = 1; k < kicks.size(); ++k) {
-    kicks[k] << random.normal(0, std::sqrt(noise.along_m2_pm * rolled_m[k])),
+  Impulses3 impulses(rolled_m.size(), Eigen::Vector3d::Zero());
+  for (std::size_t k = 1; k < impulses.size(); ++k) {
+    impulses[k] << random.normal(0, std::sqrt(noise.along_m2_pm * rolled_m[k])),
         random.normal(0, std::sqrt(noise.across_m2_pm * rolled_m[k])),
         random.normal(0, std::sqrt(noise.heading_rad2_pm * rolled_m[k]));
-    for (int w = 0; w < 2; ++w) kicks[k] += scale[w] * radius[w][k];
+    for (int w = 0; w < 2; ++w) impulses[k] += scale[w] * radius[w][k];
   }
-  Eigen::VectorXd error = model.filter(run).propagate(kicks);
-  for (std::size_t k = 0; k < kicks.size(); ++k) {
+  Eigen::VectorXd error = model.filter(run).propagate(impulses);
+  for (std::size_t k = 0; k < impulses.size(); ++k) {
     error[3 * Eigen::Index(k)] += random.normal(0, noise.position_sd_m);
     error[3 * Eigen::Index(k) + 1] += random.normal(0, noise.position_sd_m);
     error[3 * Eigen::Index(k) + 2] += random.normal(0, noise.heading_sd_rad);
@@ -36,8 +36,8 @@ Eigen::VectorXd noise_track(const Model& model, std::size_t run, const Kicks3 ra
 
 TrackMisfit aligned_misfit(const Model& model, std::size_t run, const Eigen::VectorXd& error) {
   const TrackFilter& filter = model.filter(run);
-  const auto products = filter.kick_products(filter.whiten(error));
-  Kicks3 start(filter.samples(), Eigen::Vector3d::Zero());
+  const auto products = filter.impulse_products(filter.whiten(error));
+  Impulses3 start(filter.samples(), Eigen::Vector3d::Zero());
   start[0] = (products.with_itself[0] + 1e-9 * Eigen::Matrix3d::Identity()).ldlt().solve(products.with_column[0]);
   const Eigen::VectorXd left = error - filter.propagate(start);
   TrackMisfit result;
@@ -66,7 +66,7 @@ std::vector<std::vector<double>> noise_misfits_m2(const Model& model, int draws)
   std::vector<std::vector<double>> squares(model.nominal().runs());
   tbb::parallel_for(std::size_t(0), squares.size(), [&](std::size_t r) {
     RandomStream random(1, "noise along a run", r);
-    const Kicks3 radius[2] = {radius_kicks(model.nominal(), r, 0), radius_kicks(model.nominal(), r, 1)};
+    const Impulses3 radius[2] = {radius_impulses(model.nominal(), r, 0), radius_impulses(model.nominal(), r, 1)};
     for (int i = 0; i < draws; ++i) {
       squares[r].push_back(aligned_misfit(model, r, noise_track(model, r, radius, random)).mean_square_m2);
     }

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "gap/evidence/floor_shifts.h"
-#include "gap/hypotheses/family_shapes.h"
+#include "gap/hypotheses/parametrisations.h"
 
 namespace umbsim::gap {
 namespace {
@@ -216,16 +216,17 @@ Fit on_uneven_floor(Fit fit, const UnevenFloorFound& floor) {
   const std::size_t rms = index_of(info, "rms_m");
   const std::size_t wavelength = index_of(info, "wavelength_m");
   const auto logarithm = [](const char* name) { return FreeParameter{name, 0, 0.1, 3, -14, 3}; };
-  Family family{"uneven_floor", "roughness", {logarithm("log rms_m"), logarithm("log wavelength_m")}, {}, {}, false, 0};
-  family.shape_unknown = true;
-  family.values = [=](const Eigen::VectorXd& p) {
+  Hypothesis hypothesis{
+      "uneven_floor", "roughness", {logarithm("log rms_m"), logarithm("log wavelength_m")}, {}, {}, false, 0};
+  hypothesis.shape_unknown = true;
+  hypothesis.values = [=](const Eigen::VectorXd& p) {
     EffectValues values = base;
     values.numbers[rms] = std::exp(p[0]);
     values.numbers[wavelength] = std::exp(p[1]);
     return values;
   };
   const Eigen::Index own = fit.p.size();
-  fit.families.push_back(std::move(family));
+  fit.hypotheses.push_back(std::move(hypothesis));
   fit.p.conservativeResize(own + 2);
   fit.p.tail(2) << std::log(floor.rms_m), std::log(floor.wavelength_m);
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(own + 2, own + 2);

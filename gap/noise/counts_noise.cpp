@@ -9,13 +9,13 @@ namespace {
 
 // What was asked for in turns is in the commands, on a leg their corrections are, too. Between rare samples counters
 // stand still, which no other effect makes them do.
-constexpr Habits kHabitsSd{0.1, 0.05, 0.02, 0.015, 0.05};
+constexpr CommandFeatures kFeaturesSd{0.1, 0.05, 0.02, 0.015, 0.05};
 constexpr double kUsualRuns = 8;
 
 }  // namespace
 
-Habits habits_sd(const Recording& recording, const std::vector<CommandFeatures>& measured,
-                 const std::vector<CommandFeatures>& foretold) {
+CommandFeatures command_features_sd(const Recording& recording, const std::vector<CommandResponse>& measured,
+                                    const std::vector<CommandResponse>& foretold) {
   double lag_s = 0;
   double runs = 0;
   for (std::size_t r = 0; r < measured.size(); ++r) {
@@ -23,7 +23,7 @@ Habits habits_sd(const Recording& recording, const std::vector<CommandFeatures>&
     lag_s += measured[r].lag_s - foretold[r].lag_s;
     runs += 1;
   }
-  Habits sd = kHabitsSd;
+  CommandFeatures sd = kFeaturesSd;
   const RecordedPath& p = recording.path;
   if (runs == 0 || lag_s < 0) return sd;
   const auto widen = [&](double& s, const std::optional<double>& speed, const std::optional<double>& acceleration) {
@@ -34,12 +34,12 @@ Habits habits_sd(const Recording& recording, const std::vector<CommandFeatures>&
   return sd;
 }
 
-double gain_scatter(const RunGroups& groups, const std::vector<CommandFeatures>& measured,
-                    const std::vector<CommandFeatures>& foretold, double usual) {
+double gain_scatter(const RunGroups& groups, const std::vector<CommandResponse>& measured,
+                    const std::vector<CommandResponse>& foretold, double usual) {
   double square = kUsualRuns * usual * usual;
   double freedom = kUsualRuns;
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
-    for (double CommandFeatures::*gain : {&CommandFeatures::left_gain, &CommandFeatures::right_gain}) {
+    for (double CommandResponse::*gain : {&CommandResponse::left_gain, &CommandResponse::right_gain}) {
       double runs = 0;
       double sum = 0;
       double squares = 0;

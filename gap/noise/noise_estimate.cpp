@@ -112,8 +112,8 @@ constexpr int kLeft = 7;  // radii, wheelbase, tracker's frame, clock
 
 Eigen::MatrixXd geometry_columns(const NominalReplay& n, std::size_t run, const TrackFilter& filter) {
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(3 * Eigen::Index(filter.samples()), kLeft);
-  for (int wheel = 0; wheel < 2; ++wheel) columns.col(wheel) = filter.propagate(radius_kicks(n, run, wheel));
-  Kicks3 turned;
+  for (int wheel = 0; wheel < 2; ++wheel) columns.col(wheel) = filter.propagate(radius_impulses(n, run, wheel));
+  Impulses3 turned;
   for (const auto& way : n.wheels_m[run]) turned.emplace_back(0, 0, (way[1] - way[0]) / n.recording->robot.wheelbase_m);
   columns.col(2) = filter.propagate(turned);
   for (std::size_t k = 0; k < filter.samples(); ++k) {

@@ -84,25 +84,25 @@ LittleSlip little_slip(const NominalReplay& nominal, const Drive& drive, double 
   return little;
 }
 
-std::vector<Kicks3> group_kicks(const NominalReplay& nominal, std::size_t run) {
+std::vector<Impulses3> group_impulses(const NominalReplay& nominal, std::size_t run) {
   const double b_m = nominal.recording->robot.wheelbase_m;
-  std::vector<Kicks3> kicks(kPerGroup, Kicks3(nominal.truth[run].size(), Eigen::Vector3d::Zero()));
-  for (std::size_t k = 1; k < kicks[0].size(); ++k) {
+  std::vector<Impulses3> impulses(kPerGroup, Impulses3(nominal.truth[run].size(), Eigen::Vector3d::Zero()));
+  for (std::size_t k = 1; k < impulses[0].size(); ++k) {
     const auto& way = nominal.wheels_m[run][k];
     const double ds_m = (way[0] + way[1]) / 2;
     const double turn_rad = (way[1] - way[0]) / b_m;
     const bool arc = std::abs(ds_m) > 0.3 * b_m / 2 * std::abs(turn_rad);
-    kicks[0][k][0] = ds_m;
-    kicks[arc ? 2 : 1][k][2] = turn_rad;
-    kicks[3][k][2] = std::abs(ds_m);
-    kicks[4][k][1] = ds_m;
+    impulses[0][k][0] = ds_m;
+    impulses[arc ? 2 : 1][k][2] = turn_rad;
+    impulses[3][k][2] = std::abs(ds_m);
+    impulses[4][k][1] = ds_m;
   }
-  return kicks;
+  return impulses;
 }
 
 Eigen::MatrixXd own_columns(const NominalReplay& nominal, const TrackFilter& filter, std::size_t run) {
   Eigen::MatrixXd raw(3 * Eigen::Index(filter.samples()), kOwn);
-  for (int wheel = 0; wheel < 2; ++wheel) raw.col(wheel) = filter.propagate(radius_kicks(nominal, run, wheel));
+  for (int wheel = 0; wheel < 2; ++wheel) raw.col(wheel) = filter.propagate(radius_impulses(nominal, run, wheel));
   const auto& truth = nominal.recording->runs[run].truth;
   const double middle_s = (truth.front().time_s + truth.back().time_s) / 2;
   for (std::size_t k = 0; k < filter.samples(); ++k) {
@@ -155,9 +155,9 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
     }
     raw.col(kCreepColumn) = track_error(nominal.tracks[r], crept[r]) / kCreep;
     if (!slipped.empty()) raw.col(kSlipColumn) = track_error(nominal.tracks[r], slipped[r]);
-    const auto kicks = group_kicks(nominal, r);
+    const auto impulses = group_impulses(nominal, r);
     const Eigen::Index first = layout.group(groups.group_of[r]);
-    for (int i = 0; i < kPerGroup; ++i) raw.col(first + i) = filters[r].propagate(kicks[std::size_t(i)]);
+    for (int i = 0; i < kPerGroup; ++i) raw.col(first + i) = filters[r].propagate(impulses[std::size_t(i)]);
     n.shared.push_back(whitened(filters[r], raw, more_rows));
     if (nominal.recording->runs[r].has_commands)
       n.shared.back()(3 * samples + lag_row, kLagColumn) = 1 / scatter.run_lag_s;

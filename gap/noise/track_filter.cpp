@@ -84,8 +84,8 @@ TrackColumns TrackFilter::whiten(const TrackColumns& columns) const {
   return white;
 }
 
-TrackFilter::KickProducts TrackFilter::kick_products(const Eigen::VectorXd& white) const {
-  KickProducts p{std::vector<Eigen::Vector3d>(steps_.size()), std::vector<Eigen::Matrix3d>(steps_.size())};
+TrackFilter::ImpulseProducts TrackFilter::impulse_products(const Eigen::VectorXd& white) const {
+  ImpulseProducts p{std::vector<Eigen::Vector3d>(steps_.size()), std::vector<Eigen::Matrix3d>(steps_.size())};
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
   Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
   for (std::size_t k = steps_.size(); k-- > 0;) {
@@ -100,11 +100,11 @@ TrackFilter::KickProducts TrackFilter::kick_products(const Eigen::VectorXd& whit
   return p;
 }
 
-Eigen::VectorXd TrackFilter::propagate(const std::vector<Eigen::Vector3d>& kicks) const {
+Eigen::VectorXd TrackFilter::propagate(const std::vector<Eigen::Vector3d>& impulses) const {
   Eigen::VectorXd track(3 * steps_.size());
   Eigen::Vector3d error = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < steps_.size(); ++k) {
-    error = (steps_[k].transition * error + kicks[k]).eval();
+    error = (steps_[k].transition * error + impulses[k]).eval();
     track.segment<3>(3 * Eigen::Index(k)) = error;
   }
   return track;

@@ -47,16 +47,17 @@ class TrackFilter {
   double log_det() const { return log_det_; }
   std::size_t samples() const { return steps_.size(); }
 
-  /// For a unit kick (along, across, heading) taken just before each sample: its whitened track times `white` (a column
-  /// from whiten), and times itself. One pass backwards for all samples.
-  struct KickProducts {
+  /// For a unit impulse (along, across, heading) taken just before each sample: its whitened track times `white` (a
+  /// column from whiten), and times itself. One pass backwards for all samples.
+  struct ImpulseProducts {
     std::vector<Eigen::Vector3d> with_column;
     std::vector<Eigen::Matrix3d> with_itself;
   };
-  KickProducts kick_products(const Eigen::VectorXd& white) const;
+  ImpulseProducts impulse_products(const Eigen::VectorXd& white) const;
 
-  /// What kicks (along, across, heading; per sample, in the robot's frame, taken before that sample) do to the track.
-  Eigen::VectorXd propagate(const std::vector<Eigen::Vector3d>& kicks) const;
+  /// What impulses (along, across, heading; per sample, in the robot's frame, taken before that sample) do to the
+  /// track.
+  Eigen::VectorXd propagate(const std::vector<Eigen::Vector3d>& impulses) const;
 
  private:
   struct Step {

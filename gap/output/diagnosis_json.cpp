@@ -33,10 +33,10 @@ double replay_sd(const std::string& effect, const EffectParameter& p, double val
 
 }  // namespace
 
-// Draws from the posterior, seen through the family's own coordinates.
+// Draws from the posterior, seen through the hypothesis's own coordinates.
 std::vector<ParameterEstimate> parameter_estimates(const Fit& fit, double overdispersion) {
   std::vector<ParameterEstimate> estimates;
-  if (fit.families.empty()) return estimates;
+  if (fit.hypotheses.empty()) return estimates;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(fit.covariance * overdispersion);
   const Eigen::MatrixXd root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
   RandomStream random(1, "parameter intervals");
@@ -47,7 +47,7 @@ std::vector<ParameterEstimate> parameter_estimates(const Fit& fit, double overdi
     draws.push_back(fit.p + root * z);
   }
   Eigen::Index at = 0;
-  for (const Family& f : fit.families) {
+  for (const Hypothesis& f : fit.hypotheses) {
     const Eigen::Index n = Eigen::Index(f.parameters.size());
     const EffectInfo& info = find_effect(f.effect);
     const EffectValues best = f.values(fit.p.segment(at, n));
@@ -111,15 +111,15 @@ Json worth_of(const Cause& cause, const Diagnosis& d) {
   Json json = worth_json(d.closure.together());
   if (d.closure.worth.size() < 2) return json;
   for (std::size_t i = 0; i < d.closure.worth.size(); ++i)
-    json["effects"][twin.families[i].effect] = worth_json(d.closure.worth[i]);
+    json["effects"][twin.hypotheses[i].effect] = worth_json(d.closure.worth[i]);
   return json;
 }
 
 // Effects of the twin that show in commands or counts, and move no pose of held-out runs beyond the noise.
 Json remarks_of(const Diagnosis& d) {
   Json remarks = Json::array();
-  for (std::size_t i = 0; i < d.twin.families.size(); ++i) {
-    const std::string& effect = d.twin.families[i].effect;
+  for (std::size_t i = 0; i < d.twin.hypotheses.size(); ++i) {
+    const std::string& effect = d.twin.hypotheses[i].effect;
     if (!shows_in_counts(find_effect(effect))) continue;
     const bool moves = d.closure.known && i < d.closure.worth.size() && d.closure.worth[i].mm > d.noise_floor_mm;
     if (!moves) remarks.push_back(effect);
@@ -161,7 +161,7 @@ Json diagnosis_json(const Diagnosis& d) {
     if (c.name == "none" || c.name == "unknown") {
       effects[c.name] = Json::object();
     } else {
-      for (const Family& f : c.fit.families) effects[f.effect] = Json::object();
+      for (const Hypothesis& f : c.fit.hypotheses) effects[f.effect] = Json::object();
       for (const ParameterEstimate& e : parameter_estimates(c, d.overdispersion)) {
         Json& parameter = effects[e.effect][e.parameter];
         parameter = {{"value", e.value}, {"ci95", {e.ci95[0], e.ci95[1]}}, {"unit", e.unit}};

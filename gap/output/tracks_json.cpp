@@ -18,7 +18,7 @@ std::vector<Pose2> begun_right(const Model& model, std::size_t r, const std::vec
   std::vector<Pose2> truth;
   for (const TruthSample& t : model.recording().runs[r].truth) truth.push_back(t.X_WB);
   const TrackFilter& filter = model.filter(r);
-  const auto products = filter.kick_products(filter.whiten(track_error(track, truth)));
+  const auto products = filter.impulse_products(filter.whiten(track_error(track, truth)));
   const Eigen::Vector3d start = products.with_itself[0].ldlt().solve(products.with_column[0]);
   const Pose2 motion = track[0] * Pose2{start[0], start[1], start[2]} * inverse(track[0]);
   std::vector<Pose2> result;

@@ -149,7 +149,7 @@ std::string worth_on_these_runs(const Diagnosis& d, const std::string& it) {
 }
 
 std::string worth(const Diagnosis& d) {
-  const bool several = d.causes.front().fit.families.size() > 1;
+  const bool several = d.causes.front().fit.hypotheses.size() > 1;
   const std::string it = several ? "together they take" : "that takes";
   const Closure& c = d.closure;
   if (c.before_mm == 0) return worth_on_these_runs(d, it);
@@ -194,7 +194,7 @@ std::string no_gap(const Diagnosis& d) {
 std::string unknown(const Diagnosis& d) {
   std::string text = fmt::format("No effect of the catalogue explains the gap: {}.", gap_text(d));
   const auto nearest = std::find_if(d.causes.begin(), d.causes.end(),
-                                    [](const Cause& c) { return is_effect(c.name) && !c.fit.families.empty(); });
+                                    [](const Cause& c) { return is_effect(c.name) && !c.fit.hypotheses.empty(); });
   if (nearest == d.causes.end() || nearest->squared_error_drop < kNotNear) {
     return text + fmt::format(" Nothing in it comes near. The gap sits {}.",
                               d.left_over.where.empty() ? "in no part of the runs more than in others"

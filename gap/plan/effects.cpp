@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kWeakestShare = 1.0 / 300;  // of the plausible maximum: acts less than any noise
 
-const EffectParameter* parameter_of(const Family& family) {
-  for (const EffectParameter& p : find_effect(family.effect).parameters) {
-    if (p.name == family.parameters.front().name) return &p;
+const EffectParameter* parameter_of(const Hypothesis& hypothesis) {
+  for (const EffectParameter& p : find_effect(hypothesis.effect).parameters) {
+    if (p.name == hypothesis.parameters.front().name) return &p;
   }
   return nullptr;
 }
@@ -22,12 +22,12 @@ bool acts_when_small(const std::string& parameter) {
   return parameter == "friction" || parameter == "ticks_per_revolution";
 }
 
-PlannedFamily planned(Family family) {
-  PlannedFamily p;
-  p.by_run_number = family.effect == "wear";
+PlannedHypothesis planned(Hypothesis hypothesis) {
+  PlannedHypothesis p;
+  p.by_run_number = hypothesis.effect == "wear";
   // Softness of the tyres goes with a toe, it is not what is asked about.
-  p.happens = !family.with;
-  if (const EffectParameter* strength = parameter_of(family)) {
+  p.happens = !hypothesis.with;
+  if (const EffectParameter* strength = parameter_of(hypothesis)) {
     if (acts_when_small(strength->name)) {
       p.weak = 0.8;
       p.strong = std::max(strength->plausible_min, 0.01);
@@ -36,7 +36,7 @@ PlannedFamily planned(Family family) {
       p.weak = p.strong * kWeakestShare;
     }
   }
-  p.family = std::move(family);
+  p.hypothesis = std::move(hypothesis);
   return p;
 }
 
@@ -63,31 +63,31 @@ OnLeg on_leg(const Model& model, int wanted_leg, double share) {
 
 }  // namespace
 
-std::vector<PlannedFamily> planned_families(const Model& model, const std::set<std::string>& wanted) {
+std::vector<PlannedHypothesis> planned_hypotheses(const Model& model, const std::set<std::string>& wanted) {
   const Recording& recording = model.recording();
-  std::vector<PlannedFamily> all;
-  std::vector<Family> plain =
-      plain_families(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution, model.wheel_width_m());
-  std::erase_if(plain, [&](const Family& f) { return wanted.count(f.effect) == 0; });
-  for (Family& f : drivable(model, std::move(plain))) all.push_back(planned(std::move(f)));
+  std::vector<PlannedHypothesis> all;
+  std::vector<Hypothesis> plain =
+      plain_hypotheses(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution, model.wheel_width_m());
+  std::erase_if(plain, [&](const Hypothesis& f) { return wanted.count(f.effect) == 0; });
+  for (Hypothesis& f : drivable(model, std::move(plain))) all.push_back(planned(std::move(f)));
   const Pose2 right_wheel{0, -recording.robot.wheelbase_m / 2, 0};
   const Pose2 cable = on_leg(model, 1, 0.5).X_WB * right_wheel;
   // Grip is needed where wheels speed up, stop and turn, not in between.
   const Pose2 corner = on_leg(model, 1, 1).X_WB * right_wheel;
-  for (Family f : {bump_family(cable.x_m, cable.y_m, cable.theta_rad), lift_family(corner.x_m, corner.y_m),
-                   patch_family(corner.x_m, corner.y_m)}) {
+  for (Hypothesis f : {bump_hypothesis(cable.x_m, cable.y_m, cable.theta_rad), lift_hypothesis(corner.x_m, corner.y_m),
+                       patch_hypothesis(corner.x_m, corner.y_m)}) {
     all.push_back(planned(std::move(f)));
   }
   const OnLeg push = on_leg(model, 2, 0.5);
-  all.push_back(planned(push_family(recording.runs[0].id, push.leg, push.seconds_into_leg, model.mass_kg())));
+  all.push_back(planned(push_hypothesis(recording.runs[0].id, push.leg, push.seconds_into_leg, model.mass_kg())));
   all.back().in_first_run = true;
-  std::erase_if(all, [&](const PlannedFamily& p) { return wanted.count(p.family.effect) == 0; });
+  std::erase_if(all, [&](const PlannedHypothesis& p) { return wanted.count(p.hypothesis.effect) == 0; });
   return all;
 }
 
-std::vector<std::string> without_family(const std::set<std::string>& wanted) {
+std::vector<std::string> without_hypothesis(const std::set<std::string>& wanted) {
   std::set<std::string> missing = wanted;
-  for (const Family& f : plain_families(0.02, 2000)) missing.erase(f.effect);
+  for (const Hypothesis& f : plain_hypotheses(0.02, 2000)) missing.erase(f.effect);
   for (const char* local : {"bump", "wheel_lift", "slippery_patch", "push"}) missing.erase(local);
   return {missing.begin(), missing.end()};
 }

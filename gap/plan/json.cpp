@@ -78,7 +78,7 @@ Json plan_json(const Plan& plan, const PlanContext& context, const PlanOptions& 
   Json weak = Json::object();
   for (const auto& [effect, severity] : plan.weak) weak[effect] = rounded(severity);
   json["weaker_than_asked"] = weak;
-  json["not_in_catalogue_of_diagnosis"] = plan.no_family;
+  json["not_in_catalogue_of_diagnosis"] = plan.no_hypothesis;
   json["these_runs"] = separation_json(plan.given);
   json["recommended"] = recommendation_json(plan.from_nothing, context);
   json["further"] = recommendation_json(plan.further, context);

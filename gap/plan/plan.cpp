@@ -61,26 +61,27 @@ Separation separation(Race race, const PlanOptions& options) {
   return s;
 }
 
-Plan plan(const Model& model, std::size_t given, double radius_scatter, const PlanOptions& options, const Say& say) {
+Plan plan(const Model& model, std::size_t given, double radius_scatter, const PlanOptions& options,
+          const ProgressCallback& progress) {
   constexpr const char* kDriving = "driving the runs and the menu under every effect";
-  say(kDriving, 0);
+  progress(kDriving, 0);
   Plan p;
-  p.no_family = without_family(options.effects);
+  p.no_hypothesis = without_hypothesis(options.effects);
   const std::vector<std::size_t> asked = range(0, given);
   const std::vector<std::size_t> menu = range(given, model.recording().runs.size());
-  const Signatures signatures(model, planned_families(model, options.effects), asked, options.severity, radius_scatter,
-                              [&](double share) { say(kDriving, share); });
+  const Signatures signatures(model, planned_hypotheses(model, options.effects), asked, options.severity,
+                              radius_scatter, [&](double share) { progress(kDriving, share); });
   const std::vector<Eigen::VectorXd> residual = model.residuals(model.predict({{}}).front());
   const std::vector<RunGram> grams = model.grams(residual, signatures.columns);
   const auto judged = [&](const std::vector<std::size_t>& runs, int draws) {
     const Eigen::MatrixXd A = information(grams, runs, signatures, model.nuisance_sd());
     return separation(race(A, signatures.all, Thresholds{}, {options.severity, draws, options.seed}), options);
   };
-  say("choosing runs", 0);
+  progress("choosing runs", 0);
   p.given = judged(asked, options.draws);
   const Judge quickly = [&](const std::vector<std::size_t>& runs) { return judged(runs, kDrawsOfSelection); };
   p.from_nothing = select_runs({}, menu, quickly);
-  say("choosing runs", kFromNothing);
+  progress("choosing runs", kFromNothing);
   p.further = select_runs(asked, menu, quickly);
   constexpr double kReached = 0.8;  // of the severity that was asked for
   for (std::size_t i = 0; i < p.given.race.effects.size(); ++i) {

@@ -50,7 +50,7 @@ struct Plan {
   Separation given;                    ///< of the runs that are asked about
   Recommendation from_nothing;         ///< the shortest set of runs of the menu
   Recommendation further;              ///< runs of the menu on top of those that are asked about
-  std::vector<std::string> no_family;  ///< effects that the diagnosis cannot name
+  std::vector<std::string> no_hypothesis;  ///< effects that the diagnosis cannot name
   std::vector<std::pair<std::string, double>>
       weak;  ///< effects that no plausible size brings to the severity, with theirs
 };
@@ -59,6 +59,6 @@ struct Plan {
 /// the model's recording do not matter; its noise does.
 Plan plan(
     const Model& model, std::size_t given, double radius_scatter, const PlanOptions& options,
-    const Say& say = [](const std::string&, double) {});
+    const ProgressCallback& progress = [](const std::string&, double) {});
 
 }  // namespace umbsim::gap

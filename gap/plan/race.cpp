@@ -14,7 +14,7 @@
 namespace umbsim::gap {
 namespace {
 
-// A family's evidence for data that come as X' C^-1 y, prepared once (gap/evidence/evidence.h, with the nuisances
+// A hypothesis's evidence for data that come as X' C^-1 y, prepared once (gap/evidence/evidence.h, with the nuisances
 // inside C).
 class Racer {
  public:
@@ -41,7 +41,7 @@ class Racer {
         gain += log_normal_cdf(mean[i] / std::sqrt(covariance_(i, i))) + std::log(2.0);
       }
     }
-    return gain - signature_.planned.family.search_cost - effect_cost;
+    return gain - signature_.planned.hypothesis.search_cost - effect_cost;
   }
 
  private:
@@ -56,7 +56,7 @@ Eigen::VectorXd drawn(const Signature& s, double severity, RandomStream& random)
   for (Eigen::Index i = 0; i < s.count; ++i) {
     direction[i] = s.prior_sd[i] * random.normal();
     if (s.positive[std::size_t(i)]) direction[i] = std::abs(direction[i]);
-    if (s.planned.family.from_zero && s.planned.family.parameters[std::size_t(i)].max <= 0) {
+    if (s.planned.hypothesis.from_zero && s.planned.hypothesis.parameters[std::size_t(i)].max <= 0) {
       direction[i] = -std::abs(direction[i]);
     }
   }
@@ -67,7 +67,7 @@ std::vector<std::string> effects_in(const std::vector<Signature>& signatures) {
   std::vector<std::string> names;
   for (const EffectInfo& info : catalogue()) {
     const bool there = std::any_of(signatures.begin(), signatures.end(),
-                                   [&](const Signature& s) { return s.planned.family.effect == info.name; });
+                                   [&](const Signature& s) { return s.planned.hypothesis.effect == info.name; });
     if (there) names.push_back(info.name);
   }
   return names;
@@ -133,7 +133,7 @@ Field field_of(const Race& race, const Eigen::MatrixXd& information, const std::
   for (const std::string& e : race.effects) field.enough.push_back(enough_to_detect({e}, thresholds));
   for (const Signature& s : signatures) {
     field.racers.emplace_back(s, information);
-    const auto at = std::find(race.effects.begin(), race.effects.end(), s.planned.family.effect);
+    const auto at = std::find(race.effects.begin(), race.effects.end(), s.planned.hypothesis.effect);
     field.effect_of.push_back(std::size_t(at - race.effects.begin()));
   }
   return field;
@@ -158,7 +158,7 @@ Eigen::MatrixXd information(const std::vector<RunGram>& grams, const std::vector
     A += scale.asDiagonal() * grams[runs[position]].products.bottomRightCorner(size, size) * scale.asDiagonal();
   }
   const Eigen::Index effects = size - nuisances;
-  A.bottomRightCorner(effects, effects) += signatures.habits.transpose() * signatures.habits;
+  A.bottomRightCorner(effects, effects) += signatures.command_features.transpose() * signatures.command_features;
   Eigen::MatrixXd M = nuisance_sd.asDiagonal() * A.topLeftCorner(nuisances, nuisances) * nuisance_sd.asDiagonal();
   M.diagonal().array() += 1;
   const Eigen::MatrixXd cross = nuisance_sd.asDiagonal() * A.topRightCorner(nuisances, effects);
@@ -186,7 +186,7 @@ Race race(const Eigen::MatrixXd& information, const std::vector<Signature>& sign
 Race race_among(const std::vector<FixedTruth>& truths, const Eigen::MatrixXd& information,
                 const std::vector<Signature>& signatures, const Thresholds& thresholds, const RaceOptions& options) {
   std::vector<std::string> effects;
-  for (const FixedTruth& t : truths) effects.push_back(signatures[t.signature].planned.family.effect);
+  for (const FixedTruth& t : truths) effects.push_back(signatures[t.signature].planned.hypothesis.effect);
   Race result = empty_race(std::move(effects));
   const Field field = field_of(result, information, signatures, thresholds, options);
   tbb::parallel_for(std::size_t(0), truths.size(), [&](std::size_t i) {
@@ -203,7 +203,7 @@ double expected_lead(const Eigen::MatrixXd& information, const std::vector<Signa
   const double whole = truth.numbers.dot(b.segment(s.first, s.count));
   double least = whole / 2;
   for (const Signature& other : signatures) {
-    if (other.planned.family.effect != effect) continue;
+    if (other.planned.hypothesis.effect != effect) continue;
     const Eigen::VectorXd own = b.segment(other.first, other.count);
     least = std::min(least, (whole - own.dot(Racer(other, information).mean(b))) / 2);
   }
@@ -226,7 +226,7 @@ FixedTruth nearest(const Eigen::MatrixXd& information, const std::vector<Signatu
   double most = -1e300;
   for (std::size_t i = 0; i < signatures.size(); ++i) {
     const Signature& other = signatures[i];
-    if (other.planned.family.effect != effect) continue;
+    if (other.planned.hypothesis.effect != effect) continue;
     Eigen::VectorXd mean = Racer(other, information).mean(b);
     for (Eigen::Index k = 0; k < mean.size(); ++k) {
       if (other.positive[std::size_t(k)]) mean[k] = std::max(0.0, mean[k]);
@@ -241,7 +241,7 @@ FixedTruth nearest(const Eigen::MatrixXd& information, const std::vector<Signatu
     if (!(square(mean) > 0)) continue;
     const Eigen::VectorXd alike = mean * std::sqrt(whole / square(mean));
     // A bending effect is known near the size at which it was simulated only.
-    const bool bends = !other.planned.family.from_zero;
+    const bool bends = !other.planned.hypothesis.from_zero;
     const Eigen::VectorXd plausible = bends ? alike.cwiseMin(kFarthest) : other.within_plausible(alike);
     if (square(plausible) > kEnough * whole) best.numbers = plausible;
   }

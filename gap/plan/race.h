@@ -33,7 +33,7 @@ struct FixedTruth {
   Eigen::VectorXd numbers;
 };
 
-/// Draws what is wrong and the noise, and lets the families race for the largest evidence with the diagnosis's costs.
+/// Draws what is wrong and the noise, and lets the hypotheses race for the largest evidence with the diagnosis's costs.
 Race race(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures, const Thresholds& thresholds,
           const RaceOptions& options);
 
@@ -42,13 +42,13 @@ Race race(const Eigen::MatrixXd& information, const std::vector<Signature>& sign
 Race race_among(const std::vector<FixedTruth>& truths, const Eigen::MatrixXd& information,
                 const std::vector<Signature>& signatures, const Thresholds& thresholds, const RaceOptions& options);
 
-/// Half the squared distance, in standard deviations, of a truth from the nearest that any family of `effect` comes to
-/// it, which pays for its numbers: log evidence by which the truth is expected to be ahead.
+/// Half the squared distance, in standard deviations, of a truth from the nearest that any hypothesis of `effect` comes
+/// to it, which pays for its numbers: log evidence by which the truth is expected to be ahead.
 double expected_lead(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures,
                      const FixedTruth& truth, const std::string& effect);
 
-/// The numbers of the family of `effect` that comes nearest to a truth, at the truth's own distance from no effect; no
-/// numbers where no plausible size is as far.
+/// The numbers of the hypothesis of `effect` that comes nearest to a truth, at the truth's own distance from no effect;
+/// no numbers where no plausible size is as far.
 FixedTruth nearest(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures,
                    const FixedTruth& truth, const std::string& effect);
 

@@ -23,14 +23,14 @@ constexpr double kNearEnough = 0.8;  // share of a severity below which the trac
 Eigen::VectorXd first_order(const TrackFilter& filter, const std::vector<Pose2>& nominal,
                             const std::vector<Pose2>& changed) {
   const auto local = [](const Pose2& d) { return Eigen::Vector3d(d.x_m, d.y_m, d.theta_rad); };
-  std::vector<Eigen::Vector3d> kicks{local(inverse(nominal[0]) * changed[0])};
+  std::vector<Eigen::Vector3d> impulses{local(inverse(nominal[0]) * changed[0])};
   for (std::size_t k = 1; k < nominal.size(); ++k) {
-    kicks.push_back(local(inverse(inverse(nominal[k - 1]) * nominal[k]) * (inverse(changed[k - 1]) * changed[k])));
+    impulses.push_back(local(inverse(inverse(nominal[k - 1]) * nominal[k]) * (inverse(changed[k - 1]) * changed[k])));
   }
-  return filter.propagate(kicks);
+  return filter.propagate(impulses);
 }
 
-// Simulates families and looks at what they change.
+// Simulates hypotheses and looks at what they change.
 class Workshop {
  public:
   Workshop(const Model& model, const std::vector<std::size_t>& counted, double radius_scatter)
@@ -40,24 +40,25 @@ class Workshop {
         nominal_(model.residuals(model.predict({{}}).front())) {}
 
   // An event of one run takes place in every run by turns: which one counts is decided when the set is known.
-  Tracks tracks(const PlannedFamily& planned, const Eigen::VectorXd& p, const std::vector<std::size_t>& runs) const {
+  Tracks tracks(const PlannedHypothesis& planned, const Eigen::VectorXd& p,
+                const std::vector<std::size_t>& runs) const {
     Tracks result = model_.nominal().tracks;
     tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
-      std::vector<Effect> effects = effects_of(planned.family, p);
+      std::vector<Effect> effects = effects_of(planned.hypothesis, p);
       if (planned.in_first_run) effects.front().values.run = model_.recording().runs[runs[i]].id;
       result[runs[i]] = model_.simulate_run(runs[i], effects);
     });
     return result;
   }
 
-  SizeRows rows(const PlannedFamily& planned, Tracks tracks) const {
+  SizeRows rows(const PlannedHypothesis& planned, Tracks tracks) const {
     if (planned.in_first_run) {
       for (std::size_t i = 1; i < counted_.size(); ++i) tracks[counted_[i]] = model_.nominal().tracks[counted_[i]];
     }
     return floors_.rows(tracks);
   }
 
-  double severity(const PlannedFamily& planned, const Eigen::VectorXd& p) const {
+  double severity(const PlannedHypothesis& planned, const Eigen::VectorXd& p) const {
     try {
       const SizeRows r = rows(planned, tracks(planned, p, counted_));
       return std::max(r.whole.norm(), r.steps.norm());
@@ -67,11 +68,11 @@ class Workshop {
   }
 
   // Whitened columns of one number for all runs, whose unit is `unit` of what was simulated.
-  void add(const PlannedFamily& planned, const Eigen::VectorXd& p, double unit, Signature& signature,
+  void add(const PlannedHypothesis& planned, const Eigen::VectorXd& p, double unit, Signature& signature,
            std::vector<Eigen::MatrixXd>& columns) const {
     const Tracks changed = tracks(planned, p, model_.all_runs());
     Predicted predicted =
-        model_.predict({planned.in_first_run ? std::vector<Effect>{} : effects_of(planned.family, p)}).front();
+        model_.predict({planned.in_first_run ? std::vector<Effect>{} : effects_of(planned.hypothesis, p)}).front();
     predicted.tracks = changed;
     const std::vector<Eigen::VectorXd> residual = model_.residuals(predicted);
     const SizeRows r = rows(planned, changed);
@@ -105,8 +106,8 @@ class Workshop {
 };
 
 // The first parameter's value at which a bending effect has the wanted severity, or the strongest.
-double bisected(const Workshop& shop, const PlannedFamily& planned, double wanted) {
-  Eigen::VectorXd p = start_of(planned.family);
+double bisected(const Workshop& shop, const PlannedHypothesis& planned, double wanted) {
+  Eigen::VectorXd p = start_of(planned.hypothesis);
   const auto at = [&](double share) { return planned.weak * std::pow(planned.strong / planned.weak, share); };
   double low = 0;
   double high = 1;
@@ -123,7 +124,7 @@ double bisected(const Workshop& shop, const PlannedFamily& planned, double wante
 }
 
 void add_bending(const Workshop& shop, double severity, Signature& s, std::vector<Eigen::MatrixXd>& columns) {
-  Eigen::VectorXd p = start_of(s.planned.family);
+  Eigen::VectorXd p = start_of(s.planned.hypothesis);
   if (s.planned.happens && severity > 0) p[0] = bisected(shop, s.planned, severity);
   shop.add(s.planned, p, 1, s, columns);
   s.count = 1;
@@ -132,16 +133,16 @@ void add_bending(const Workshop& shop, double severity, Signature& s, std::vecto
   s.unit = p.head(1);
 }
 
-// A first estimate of where one number of a family has the wanted severity, by proportion from its step.
-double by_proportion(const Workshop& shop, const PlannedFamily& planned, Eigen::Index i, double severity) {
-  const FreeParameter& free = planned.family.parameters[std::size_t(i)];
-  Eigen::VectorXd p = start_of(planned.family);
+// A first estimate of where one number of a hypothesis has the wanted severity, by proportion from its step.
+double by_proportion(const Workshop& shop, const PlannedHypothesis& planned, Eigen::Index i, double severity) {
+  const FreeParameter& free = planned.hypothesis.parameters[std::size_t(i)];
+  Eigen::VectorXd p = start_of(planned.hypothesis);
   p[i] += free.step;
   const double size = shop.severity(planned, p);
   double value = size > 1e-3 ? free.step * severity / size : free.step;
   const auto beyond = [&] {
     p[i] = value;
-    return value > free.max || !plausible(effect_of(planned.family, p));
+    return value > free.max || !plausible(effect_of(planned.hypothesis, p));
   };
   constexpr double kShrink = 0.8;
   while (value > free.step && beyond()) value *= kShrink;
@@ -149,7 +150,7 @@ double by_proportion(const Workshop& shop, const PlannedFamily& planned, Eigen::
 }
 
 void add_proportional(const Workshop& shop, double severity, Signature& s, std::vector<Eigen::MatrixXd>& columns) {
-  const auto& free = s.planned.family.parameters;
+  const auto& free = s.planned.hypothesis.parameters;
   s.count = int(free.size());
   s.prior_sd.resize(s.count);
   s.unit = Eigen::VectorXd::Ones(s.count);
@@ -157,7 +158,7 @@ void add_proportional(const Workshop& shop, double severity, Signature& s, std::
     const FreeParameter& f = free[std::size_t(i)];
     s.prior_sd[i] = f.prior_sd;
     s.positive.push_back(f.min >= 0);
-    Eigen::VectorXd p = start_of(s.planned.family);
+    Eigen::VectorXd p = start_of(s.planned.hypothesis);
     // Down only: a step up would change nothing.
     const double step = f.max <= p[i] ? -f.step : f.step;
     p[i] += s.positive.back() && severity > 0 ? by_proportion(shop, s.planned, i, severity) : step;
@@ -188,10 +189,10 @@ double Signature::severity(const Eigen::VectorXd& numbers) const {
 Eigen::VectorXd Signature::within_plausible(Eigen::VectorXd numbers) const {
   const auto beyond = [&] {
     for (Eigen::Index i = 0; i < numbers.size(); ++i) {
-      const FreeParameter& f = planned.family.parameters[std::size_t(i)];
+      const FreeParameter& f = planned.hypothesis.parameters[std::size_t(i)];
       if (numbers[i] < f.min || numbers[i] > f.max) return true;
     }
-    return !plausible(effect_of(planned.family, numbers));
+    return !plausible(effect_of(planned.hypothesis, numbers));
   };
   constexpr double kShrink = 0.9;
   for (int i = 0; i < 200 && beyond(); ++i) numbers *= kShrink;
@@ -200,7 +201,7 @@ Eigen::VectorXd Signature::within_plausible(Eigen::VectorXd numbers) const {
 
 Eigen::VectorXd Signature::at_severity(const Eigen::VectorXd& direction, double wanted) const {
   // What was simulated at its size stays there.
-  if (!planned.family.from_zero) return Eigen::VectorXd::Ones(1);
+  if (!planned.hypothesis.from_zero) return Eigen::VectorXd::Ones(1);
   if (!(severity(direction) > 0)) return direction;
   const double size = on_track(direction);
   if (size > 0) {
@@ -212,17 +213,17 @@ Eigen::VectorXd Signature::at_severity(const Eigen::VectorXd& direction, double 
   return kTypical * within_plausible(kFar * direction / severity(direction));
 }
 
-Signatures::Signatures(const Model& model, const std::vector<PlannedFamily>& families,
+Signatures::Signatures(const Model& model, const std::vector<PlannedHypothesis>& hypotheses,
                        const std::vector<std::size_t>& counted, double severity, double radius_scatter,
                        const std::function<void(double)>& done)
     : columns(model.recording().runs.size()) {
   const Workshop shop(model, counted, radius_scatter);
-  for (const PlannedFamily& planned : families) {
-    if (done) done(double(all.size()) / double(families.size()));
+  for (const PlannedHypothesis& planned : hypotheses) {
+    if (done) done(double(all.size()) / double(hypotheses.size()));
     Signature s;
     s.planned = planned;
     s.first = int(columns.front().cols());
-    if (planned.family.from_zero)
+    if (planned.hypothesis.from_zero)
       add_proportional(shop, severity, s, columns);
     else
       add_bending(shop, severity, s, columns);
@@ -230,8 +231,8 @@ Signatures::Signatures(const Model& model, const std::vector<PlannedFamily>& fam
     all.push_back(std::move(s));
   }
   // In a model they stand with its first run, which need not be in every set.
-  const Eigen::Index shared = Eigen::Index(std::tuple_size_v<Habits>);
-  habits = columns.front().bottomRows(shared);
+  const Eigen::Index shared = Eigen::Index(std::tuple_size_v<CommandFeatures>);
+  command_features = columns.front().bottomRows(shared);
   columns.front().bottomRows(shared).setZero();
 }
 

@@ -8,16 +8,16 @@
 
 namespace umbsim::gap {
 
-/// One family's place in the columns, and how large its numbers must be to show.
+/// One hypothesis's place in the columns, and how large its numbers must be to show.
 struct Signature {
-  PlannedFamily planned;
+  PlannedHypothesis planned;
   int first = 0;  ///< of its columns
   int count = 0;
   Eigen::VectorXd prior_sd;    ///< of each column's number
   std::vector<bool> positive;  ///< numbers that cannot be negative
   Eigen::VectorXd unit;        ///< value of each number's parameter at 1
   SizeRows rows;               ///< severity's rows by number, one column each
-  Eigen::MatrixXd features;    ///< of counts and habits, in standard deviations, by number
+  Eigen::MatrixXd features;    ///< of counts and command features, in standard deviations, by number
 
   /// Severity at these numbers, in the tracks or their steps.
   double on_track(const Eigen::VectorXd& numbers) const;
@@ -33,14 +33,16 @@ struct Signature {
 struct Signatures {
   std::vector<Signature> all;
   std::vector<Eigen::MatrixXd> columns;  ///< per run
-  Eigen::MatrixXd habits;  ///< what any set of runs shows of how it is driven and read, once (recording/habits.h)
+  Eigen::MatrixXd command_features;      ///< what any set of runs shows of how it is driven and read, once
+                                         ///< (recording/command_features.h)
 
   /// An effect that bends the simulator, or cannot be negative, is simulated at the wanted severity and its secant
-  /// taken; any other is simulated at its family's step. `counted`: runs that a severity is measured on. `severity` 0:
-  /// all at the families' own steps and starts, where the search has simulated them already. `done`: told how far it
-  /// is.
-  Signatures(const Model& model, const std::vector<PlannedFamily>& families, const std::vector<std::size_t>& counted,
-             double severity, double radius_scatter, const std::function<void(double share)>& done = {});
+  /// taken; any other is simulated at its hypothesis's step. `counted`: runs that a severity is measured on. `severity`
+  /// 0: all at the hypotheses' own steps and starts, where the search has simulated them already. `done`: told how far
+  /// it is.
+  Signatures(const Model& model, const std::vector<PlannedHypothesis>& hypotheses,
+             const std::vector<std::size_t>& counted, double severity, double radius_scatter,
+             const std::function<void(double share)>& done = {});
 };
 
 }  // namespace umbsim::gap

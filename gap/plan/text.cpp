@@ -115,8 +115,8 @@ std::string plan_text(const Plan& plan, const PlanContext& context, const PlanOp
       fmt::format("Before any data: effects of {} noise floors in these {} runs\n", options.severity, context.given);
   text += matrix ? matrix_text(plan.given.race) : mistaken_text(plan.given);
   text += separation_text(plan.given, hopeless) + weak_text(plan, hopeless);
-  if (!plan.no_family.empty()) {
-    text += wrapped(fmt::format("  no model of the diagnosis names: {}", fmt::join(plan.no_family, ", ")), 4);
+  if (!plan.no_hypothesis.empty()) {
+    text += wrapped(fmt::format("  no model of the diagnosis names: {}", fmt::join(plan.no_hypothesis, ", ")), 4);
   }
   text += "Shortest set of runs of the menu that separates them\n" + steps_text(plan.from_nothing, context) +
           separation_text(plan.from_nothing.result, hopeless);

@@ -16,36 +16,36 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Families that need no place, and every bending one as it was fitted.
-std::vector<PlannedFamily> families_of(const Model& model, const Diagnosis& d) {
+// Hypotheses that need no place, and every bending one as it was fitted.
+std::vector<PlannedHypothesis> hypotheses_of(const Model& model, const Diagnosis& d) {
   std::set<std::string> wanted;
   for (const EffectInfo& info : catalogue()) wanted.insert(info.name);
-  std::vector<PlannedFamily> families = planned_families(model, wanted);
-  std::erase_if(families, [](const PlannedFamily& p) { return p.family.search_cost > 0; });
+  std::vector<PlannedHypothesis> hypotheses = planned_hypotheses(model, wanted);
+  std::erase_if(hypotheses, [](const PlannedHypothesis& p) { return p.hypothesis.search_cost > 0; });
   for (const Cause& c : d.causes) {
     Eigen::Index at = 0;
-    for (Family f : c.fit.families) {
+    for (Hypothesis f : c.fit.hypotheses) {
       const Eigen::VectorXd p = c.fit.p.segment(at, Eigen::Index(f.parameters.size()));
       at += p.size();
       if (f.from_zero) continue;
       for (Eigen::Index i = 0; i < p.size(); ++i) f.parameters[std::size_t(i)].start = p[i];
-      families.push_back({std::move(f), true, false, false, 0, 0});
+      hypotheses.push_back({std::move(f), true, false, false, 0, 0});
     }
   }
-  return families;
+  return hypotheses;
 }
 
-// The signature and the numbers of one family of a cause's fit.
+// The signature and the numbers of one hypothesis of a cause's fit.
 FixedTruth as_fitted(const std::vector<Signature>& signatures, const Cause& cause, const std::string& effect) {
   FixedTruth truth;
   Eigen::Index at = 0;
-  for (const Family& f : cause.fit.families) {
+  for (const Hypothesis& f : cause.fit.hypotheses) {
     const Eigen::Index n = Eigen::Index(f.parameters.size());
     const Eigen::VectorXd p = cause.fit.p.segment(at, n);
     at += n;
     if (f.effect != effect) continue;
     for (std::size_t i = 0; i < signatures.size(); ++i) {
-      const Family& g = signatures[i].planned.family;
+      const Hypothesis& g = signatures[i].planned.hypothesis;
       if (g.effect != f.effect || g.variant != f.variant) continue;
       if (!f.from_zero && !(signatures[i].unit[0] == p[0])) continue;
       truth = {i, f.from_zero ? p : Eigen::VectorXd::Ones(1)};
@@ -85,9 +85,9 @@ Ties find_ties(const Model& model, const Diagnosis& d, const std::set<std::strin
                double alike) {
   Ties ties;
   const Cause& first = d.causes.front();
-  if (first.fit.families.empty()) return ties;
-  ties.families = families_of(model, d);
-  const Signatures signatures(model, ties.families, model.all_runs(), 0, kScatter);
+  if (first.fit.hypotheses.empty()) return ties;
+  ties.hypotheses = hypotheses_of(model, d);
+  const Signatures signatures(model, ties.hypotheses, model.all_runs(), 0, kScatter);
   const auto grams = model.grams(model.residuals(model.predict({{}}).front()), signatures.columns);
   const Eigen::MatrixXd A = information(grams, model.all_runs(), signatures, model.nuisance_sd());
   ties.information = A;
@@ -152,7 +152,7 @@ void add_ties(const Ties& ties, const Thresholds& t, Diagnosis& d) {
 std::vector<NextExperiment> next_experiments(const Model& menu, const std::vector<std::string>& labels,
                                              const Ties& ties, const Thresholds& t) {
   std::vector<NextExperiment> all;
-  const Signatures signatures(menu, ties.families, menu.all_runs(), 0, kScatter);
+  const Signatures signatures(menu, ties.hypotheses, menu.all_runs(), 0, kScatter);
   const auto grams = menu.grams(menu.residuals(menu.predict({{}}).front()), signatures.columns);
   for (std::size_t r = 0; r + 1 < labels.size(); r += 2) {
     // A load says nothing by itself, only beside runs without it. Nuisances of the two are taken as independent.

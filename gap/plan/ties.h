@@ -16,7 +16,7 @@ struct Ties {
   std::size_t own = 0;                           ///< members that the first cause is made of: no rivals of each other
   std::vector<std::string> members;              ///< those, then effects tied with them or in the set
   std::vector<FixedTruth> sizes;                 ///< of each, as fitted or as near to the first as it comes
-  std::vector<PlannedFamily> families;           ///< that `sizes` refer to, in the order of their signatures
+  std::vector<PlannedHypothesis> hypotheses;     ///< that `sizes` refer to, in the order of their signatures
   Eigen::MatrixXd information;                   ///< of their signatures in the recorded runs
   std::vector<std::vector<std::string>> groups;  ///< for `indistinguishable`, excluded effects as well
   std::vector<std::string> could_be;             ///< effects that would often be named as the first cause, for `set`

@@ -105,14 +105,14 @@ NominalReplay part_of(const NominalReplay& nominal, const Campaign& campaign, st
 }
 
 // Derivatives of ds = (l + r) / 2 and dtheta = (r - l) / b (NUMBERS.md, odometry).
-Kicks3 radius_kicks(const NominalReplay& nominal, std::size_t run, int wheel) {
+Impulses3 radius_impulses(const NominalReplay& nominal, std::size_t run, int wheel) {
   const double b_m = nominal.recording->robot.wheelbase_m;
-  Kicks3 kicks;
+  Impulses3 impulses;
   for (const auto& way : nominal.wheels_m[run]) {
     const double d = way[std::size_t(wheel)];
-    kicks.emplace_back(d / 2, 0, (wheel == 0 ? -d : d) / b_m);
+    impulses.emplace_back(d / 2, 0, (wheel == 0 ? -d : d) / b_m);
   }
-  return kicks;
+  return impulses;
 }
 
 }  // namespace umbsim::gap

@@ -36,9 +36,9 @@ NominalReplay beside(const Recording& recording, std::vector<std::vector<Pose2>>
 /// The runs of one recording alone.
 NominalReplay part_of(const NominalReplay& nominal, const Campaign& campaign, std::size_t part);
 
-using Kicks3 = std::vector<Eigen::Vector3d>;  ///< (along, across, heading) before each sample
+using Impulses3 = std::vector<Eigen::Vector3d>;  ///< (along, across, heading) before each sample
 
 /// What a wheel whose radius is larger by one part in one adds to each step. `wheel`: 0 left, 1 right.
-Kicks3 radius_kicks(const NominalReplay& nominal, std::size_t run, int wheel);
+Impulses3 radius_impulses(const NominalReplay& nominal, std::size_t run, int wheel);
 
 }  // namespace umbsim::gap

@@ -130,7 +130,7 @@ std::optional<fs::path> user_cache_folder() {
 
 Simulator cached(Simulator simulator, const Recording& recording, const std::string& identity,
                  const CacheChoice& choice) {
-  const auto habits = simulator.habits;
+  const auto command_features = simulator.command_features;
   const auto scrubs = simulator.scrubs;
   const bool commands = bool(simulator.commands);
   const double wheel_width_m = simulator.wheel_width_m;
@@ -145,7 +145,7 @@ Simulator cached(Simulator simulator, const Recording& recording, const std::str
       return cached_commands(*store, run, e);
     };
   }
-  result.habits = habits;
+  result.command_features = command_features;
   result.scrubs = scrubs;
   result.wheel_width_m = wheel_width_m;
   result.mass_kg = mass_kg;

@@ -7,7 +7,7 @@
 
 #include "core/pose2.h"
 #include "effects/catalogue.h"
-#include "recording/habits.h"
+#include "recording/command_features.h"
 
 namespace umbsim::gap {
 
@@ -24,7 +24,8 @@ using ReplayCommands =
 struct Simulator {
   ReplayTicks ticks;
   ReplayCommands commands;
-  std::function<Habits(const std::vector<Effect>&)> habits;  ///< as recording/habits.h, under effects
+  std::function<CommandFeatures(const std::vector<Effect>&)>
+      command_features;  ///< as recording/command_features.h, under effects
   /// Whether wheels scrub under effects, so that the floor's roughness moves their mean path; none: never.
   std::function<bool(const std::vector<Effect>&)> scrubs = {};
   double wheel_width_m = 0;  ///< of the drive wheels, as the robot's description says; 0: not known

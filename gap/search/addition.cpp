@@ -54,29 +54,30 @@ const std::vector<Lookalikes>& lookalikes() {
 }
 
 std::ptrdiff_t of_these(const Fit& fit, const std::set<std::string>& effects) {
-  return std::count_if(fit.families.begin(), fit.families.end(),
-                       [&](const Family& f) { return effects.count(f.effect) > 0; });
+  return std::count_if(fit.hypotheses.begin(), fit.hypotheses.end(),
+                       [&](const Hypothesis& f) { return effects.count(f.effect) > 0; });
 }
 
 double share_that_may_err(const Fit& base, const Thresholds& t) {
-  const auto scrubs = [](const Family& f) { return bool(f.with); };
-  return std::any_of(base.families.begin(), base.families.end(), scrubs) ? kScrubShare : t.addition_share;
+  const auto scrubs = [](const Hypothesis& f) { return bool(f.with); };
+  return std::any_of(base.hypotheses.begin(), base.hypotheses.end(), scrubs) ? kScrubShare : t.addition_share;
 }
 
 bool adds_local(const Fit& base, const Fit& fit) {
-  return std::any_of(fit.families.begin(), fit.families.end(), [&](const Family& f) {
-    const auto same = [&](const Family& g) { return g.effect == f.effect; };
-    return f.search_cost > 0 && std::none_of(base.families.begin(), base.families.end(), same);
+  return std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(), [&](const Hypothesis& f) {
+    const auto same = [&](const Hypothesis& g) { return g.effect == f.effect; };
+    return f.search_cost > 0 && std::none_of(base.hypotheses.begin(), base.hypotheses.end(), same);
   });
 }
 
 bool adds_dimensions_alone(const Fit& base, const Fit& fit) {
   const auto in_base = [&](const std::string& effect) {
-    return std::any_of(base.families.begin(), base.families.end(), [&](const Family& g) { return g.effect == effect; });
+    return std::any_of(base.hypotheses.begin(), base.hypotheses.end(),
+                       [&](const Hypothesis& g) { return g.effect == effect; });
   };
-  return fit.families.size() > base.families.size() &&
-         std::all_of(fit.families.begin(), fit.families.end(),
-                     [&](const Family& f) { return is_dimension(f.effect) || in_base(f.effect); });
+  return fit.hypotheses.size() > base.hypotheses.size() &&
+         std::all_of(fit.hypotheses.begin(), fit.hypotheses.end(),
+                     [&](const Hypothesis& f) { return is_dimension(f.effect) || in_base(f.effect); });
 }
 
 // Squares, in standard deviations, that a fit leaves beyond noise. Single readings count up to a bound only: a cable or
@@ -124,7 +125,8 @@ Needed addition_needed(const Model& model, const Fit& base, const Fit& none, con
   needed.everywhere = std::max(own, for_misfit);
   needed.rolling = std::max(spread * (t.addition + share), for_misfit);
   needed.local = std::max(own, t.local_misfit_share * left / 2);
-  // Counts and habits are measured as they are: no noise of the tracks, and no misfit of theirs, speaks against them.
+  // Counts and command features are measured as they are: no noise of the tracks, and no misfit of theirs, speaks
+  // against them.
   needed.counts = std::max(t.addition + t.counts_share * counts_gained, t.counts_misfit_share * counts_left / 2);
   // The screen is linear: beside something large an effect may bring ten times what it sees.
   needed.hint = std::max({0.5 * t.addition, 0.1 * own, 0.5 * for_misfit});
@@ -138,9 +140,9 @@ bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& nee
   if (gain < extra * lookalike_share(base, fit) * needed.gained) return false;
   // What leaves most of the misfit as it was mends an error of the model, as any effect could. The model of what rolls
   // and counts has none: there it is noise that is not as it was thought to be.
-  const bool leaves_most = !fit.only_rolls() && excess(model, fit) > kMost * needed.left;
+  const bool leaves_most = !fit.is_kinematic() && excess(model, fit) > kMost * needed.left;
   const bool dear = leaves_most || adds_local(base, fit);
-  const double everywhere = fit.only_rolls() ? needed.rolling : needed.everywhere;
+  const double everywhere = fit.is_kinematic() ? needed.rolling : needed.everywhere;
   if (gain >= extra * (dear ? needed.local : everywhere)) return true;
   const double counts = (model.counts_misfit(base.predicted) - model.counts_misfit(fit.predicted)) / 2;
   // What tracks speak for mostly they must pay for, unless most of what counts show is at stake.

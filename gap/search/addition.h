@@ -8,9 +8,9 @@ namespace umbsim::gap {
 /// What a further effect must bring on top of a fit: log evidence.
 struct Needed {
   double everywhere = 0;  ///< of an effect that acts on all runs
-  double rolling = 0;     ///< of an effect that only rolls or counts, on top of such
+  double rolling = 0;     ///< of a kinematic effect, on top of such
   double local = 0;       ///< of one place or moment, which finds something to mend in any misfit
-  double counts = 0;      ///< or of counts against commands and of habits alone, where tracks say little
+  double counts = 0;      ///< or of counts against commands and of command features alone, where tracks say little
   double gained = 0;      ///< what the fit itself brought
   double left = 0;        ///< squares, in standard deviations, that the fit leaves beyond noise
   double hint = 0;        ///< what the linear screen must see of it, for a fit to be tried

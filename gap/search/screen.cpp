@@ -4,26 +4,26 @@
 
 #include "core/error.h"
 #include "gap/evidence/drivable.h"
-#include "gap/evidence/kicks.h"
+#include "gap/evidence/impulsive_residuals.h"
 #include "gap/hypotheses/local_starts.h"
-#include "gap/search/climb.h"
+#include "gap/search/local_search.h"
 #include "gap/search/search.h"
 
 namespace umbsim::gap {
 namespace {
 
-constexpr double kLeastKick = 10;  // log evidence below which a place or a moment would not pay
+constexpr double kLeastImpulse = 10;  // log evidence below which a place or a moment would not pay
 constexpr double kTryCost = 3;  // log of how many frictions are tried, and for the width of what is held where it shows
 
 // Effects on how the robot is driven and read are tried where counts or commands show them.
-bool shown_by_habits(const std::string& effect, const Habits& h) {
+bool shown_by_command_features(const std::string& effect, const CommandFeatures& h) {
   if (effect == "encoder_sampling") return h[3] > 0;
   if (effect == "encoder_resolution") return h[4] < -0.1;
   return true;
 }
 
 // Where the fit of such an effect begins: at what counts or commands show. NaN: not such an effect.
-double shown_start(const std::string& effect, const Habits& h) {
+double shown_start(const std::string& effect, const CommandFeatures& h) {
   if (effect == "over_acceleration") return h[0];
   if (effect == "fast_turning") return h[2];
   if (effect == "encoder_sampling") return h[3];
@@ -48,17 +48,17 @@ std::pair<int, double> leg_at(const std::vector<Stretch>& stretches, double time
 
 Screen::Screen(const Model& model, const std::set<std::string>& excluded) : model_(model), excluded_(excluded) {
   const Recording& recording = model.recording();
-  for (const Family& f :
-       plain_families(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution, model.wheel_width_m())) {
-    if (excluded.count(f.effect) > 0 || !shown_by_habits(f.effect, model.habits())) continue;
-    families_.push_back(f);
+  for (const Hypothesis& f :
+       plain_hypotheses(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution, model.wheel_width_m())) {
+    if (excluded.count(f.effect) > 0 || !shown_by_command_features(f.effect, model.command_features())) continue;
+    hypotheses_.push_back(f);
     // Samples that are rarer by a little already lag by up to a period: a longer interval says little of these.
-    if (f.effect == "encoder_sampling") families_.back().parameters[0].step = model.habits()[3];
+    if (f.effect == "encoder_sampling") hypotheses_.back().parameters[0].step = model.command_features()[3];
   }
   try {
     simulate_steps();
-  } catch (const std::runtime_error&) {  // RunError or InputError: not every family suits every robot
-    families_ = drivable(model, std::move(families_));
+  } catch (const std::runtime_error&) {  // RunError or InputError: not every hypothesis suits every robot
+    hypotheses_ = drivable(model, std::move(hypotheses_));
     simulate_steps();
   }
 }
@@ -68,7 +68,7 @@ void Screen::simulate_steps() {
   std::vector<std::vector<Effect>> stepped;
   std::vector<double> steps;
   std::vector<double> sd;
-  for (const Family& f : families_) {
+  for (const Hypothesis& f : hypotheses_) {
     range_.push_back({int(steps.size()), f.from_zero ? int(f.parameters.size()) : 1});
     if (!f.from_zero) {
       stepped.push_back(effects_of(f, start_of(f)));
@@ -93,7 +93,7 @@ void Screen::simulate_steps() {
 void Screen::try_frictions(const Fit& fit, Candidate& c) const {
   c.gain = -1e9;
   if (model_.slips_at() == 0) return;
-  const auto density = density_on(model_, fit, c.family, model_.one_of_each());
+  const auto density = density_on(model_, fit, c.hypothesis, model_.one_of_each());
   double highest = -1e300;
   for (const double less :
        {-0.02, -0.01, 0.0, 0.01, 0.02, 0.035, 0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.6, 0.9, 1.3, 1.8, 2.5}) {
@@ -104,66 +104,69 @@ void Screen::try_frictions(const Fit& fit, Candidate& c) const {
     c.start[0] = friction;
     c.reach = vector_of({0.01 * friction});
   }
-  c.gain = density_on(model_, fit, c.family)(c.start) - model_.density_at(fit.families, fit.p) - kTryCost;
+  c.gain = density_on(model_, fit, c.hypothesis)(c.start) - model_.density_at(fit.hypotheses, fit.p) - kTryCost;
 }
 
 // What counts and commands show is tried as it is: beside another effect the derivatives see little of it.
 void Screen::try_start(const Fit& fit, Candidate& c) const {
-  const double before = model_.density_at(fit.families, fit.p);
-  c.gain = std::max(c.gain, density_on(model_, fit, c.family)(c.start) - before - kTryCost);
+  const double before = model_.density_at(fit.hypotheses, fit.p);
+  c.gain = std::max(c.gain, density_on(model_, fit, c.hypothesis)(c.start) - before - kTryCost);
 }
 
 // Places and moments where something happened that `fit` leaves.
 void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) const {
-  const Kicks kicks = find_kicks(model_, fit);
+  const Impulses impulses = find_impulses(model_, fit);
   const double R = model_.recording().robot.wheel_radius_m;
   // Two local events at once are not looked for: the second would mend the first one's shape.
   if (fit.is_local()) return;
-  const auto offer = [&](Family family, const Starts& starts, const std::vector<double>& reach, int climbs, double gain,
-                         const std::vector<std::size_t>& shown_by = {}) {
-    if (excluded_.count(family.effect) > 0) return;
+  const auto offer = [&](Hypothesis hypothesis, const Starts& starts, const std::vector<double>& reach,
+                         int local_searches, double gain, const std::vector<std::size_t>& shown_by = {}) {
+    if (excluded_.count(hypothesis.effect) > 0) return;
     Candidate c;
-    c.family = std::move(family);
+    c.hypothesis = std::move(hypothesis);
     c.start = starts.front();
     c.starts = starts;
     c.reach = vector_of(reach);
-    c.climbs = climbs;
+    c.local_searches = local_searches;
     // Where grip is missing the best start says little of the top of its hill.
-    c.any_start = c.family.effect == "slippery_patch";
-    c.gain = gain - c.family.search_cost;
+    c.any_start = c.hypothesis.effect == "slippery_patch";
+    c.gain = gain - c.hypothesis.search_cost;
     c.shown_by = shown_by;
     candidates.push_back(std::move(c));
   };
-  for (std::size_t i = 0; i < std::min<std::size_t>(kicks.places.size(), 2); ++i) {
-    const PlaceKick& k = kicks.places[i];
-    if (k.gain < kLeastKick) break;
+  for (std::size_t i = 0; i < std::min<std::size_t>(impulses.places.size(), 2); ++i) {
+    const PlaceImpulse& k = impulses.places[i];
+    if (k.gain < kLeastImpulse) break;
     if (k.lost_m > 0) {
-      offer(bump_family(k.x_m, k.y_m, k.heading_rad), cable_starts(k.lost_m, R), {0.002, 0.02}, 2, k.gain, k.shown_by);
+      offer(bump_hypothesis(k.x_m, k.y_m, k.heading_rad), cable_starts(k.lost_m, R), {0.002, 0.02}, 2, k.gain,
+            k.shown_by);
     }
-    const bool closely = i == 0 && fit.families.empty();
-    offer(lift_family(k.x_m, k.y_m), lift_starts(closely), {0.005, 0.01, 0.01}, closely ? 5 : 3, k.gain - 1,
+    const bool closely = i == 0 && fit.hypotheses.empty();
+    offer(lift_hypothesis(k.x_m, k.y_m), lift_starts(closely), {0.005, 0.01, 0.01}, closely ? 5 : 3, k.gain - 1,
           k.shown_by);
     const double grips = model_.slips_at() > 0 ? model_.slips_at() : 0.05;
-    offer(patch_family(k.x_m, k.y_m), patch_starts(grips, closely), {0.02 * grips, 0.04, 0.04, 0.04}, closely ? 3 : 1,
-          k.gain - 2, k.shown_by);
+    offer(patch_hypothesis(k.x_m, k.y_m), patch_starts(grips, closely), {0.02 * grips, 0.04, 0.04, 0.04},
+          closely ? 3 : 1, k.gain - 2, k.shown_by);
   }
-  if (kicks.moments.empty() || kicks.moments.front().gain < kLeastKick) return;
-  const Kick& k = kicks.moments.front();
+  if (impulses.moments.empty() || impulses.moments.front().gain < kLeastImpulse) return;
+  const Impulse& k = impulses.moments.front();
   const RecordedRun& run = model_.recording().runs[k.run];
   const auto [leg, seconds] = leg_at(model_.stretches(k.run), run.truth[k.sample].time_s);
   if (leg == 0) return;
   const double kg = model_.mass_kg();
-  offer(push_family(run.id, leg, std::max(0.0, std::round(seconds * 10 - 1) / 10), kg), push_starts(kg),
+  offer(push_hypothesis(run.id, leg, std::max(0.0, std::round(seconds * 10 - 1) / 10), kg), push_starts(kg),
         {0.05 * kg, 0.05}, 2, k.gain);
 }
 
-std::optional<Linearisation> Screen::near(const Fit& fit, const Family& family) const {
-  const auto same = [&](const Family& f) { return f.effect == family.effect && f.variant == family.variant; };
-  const auto at = std::find_if(families_.begin(), families_.end(), same);
-  if (at == families_.end() || !at->from_zero) return std::nullopt;
-  const auto [first, count] = range_[std::size_t(at - families_.begin())];
+std::optional<Linearisation> Screen::near(const Fit& fit, const Hypothesis& hypothesis) const {
+  const auto same = [&](const Hypothesis& f) {
+    return f.effect == hypothesis.effect && f.variant == hypothesis.variant;
+  };
+  const auto at = std::find_if(hypotheses_.begin(), hypotheses_.end(), same);
+  if (at == hypotheses_.end() || !at->from_zero) return std::nullopt;
+  const auto [first, count] = range_[std::size_t(at - hypotheses_.begin())];
   Linearisation near{Eigen::VectorXd(fit.p.size() + count), model_.residuals(fit.predicted), {}};
-  near.p << fit.p, start_of(family);
+  near.p << fit.p, start_of(hypothesis);
   for (std::size_t r = 0; r < columns_.size(); ++r) {
     Eigen::MatrixXd both(columns_[r].rows(), fit.p.size() + count);
     if (fit.p.size() > 0) both.leftCols(fit.p.size()) = fit.columns[r];
@@ -188,7 +191,7 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
   for (int i = 1; i <= fixed; ++i) base.push_back(i);
   Eigen::VectorXd own_sd(own);
   Eigen::Index at = 0;
-  for (const Family& f : fit.families) {
+  for (const Hypothesis& f : fit.hypotheses) {
     for (const FreeParameter& p : f.parameters) own_sd[at++] = p.prior_sd;
   }
   const std::vector<Eigen::VectorXd> base_sds = with_more(model_.nuisance_sds(), own_sd);
@@ -199,10 +202,10 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
   std::vector<double> misfit_without;
   for (const Eigen::VectorXd& sd : base_sds) misfit_without.push_back(evidence(grams, runs, base, sd, shift).misfit);
   std::vector<Candidate> candidates;
-  for (std::size_t f = 0; f < families_.size(); ++f) {
+  for (std::size_t f = 0; f < hypotheses_.size(); ++f) {
     const auto [first, count] = range_[f];
-    const bool there = std::any_of(fit.families.begin(), fit.families.end(),
-                                   [&](const Family& g) { return g.effect == families_[f].effect; });
+    const bool there = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(),
+                                   [&](const Hypothesis& g) { return g.effect == hypotheses_[f].effect; });
     if (there) continue;
     std::vector<int> columns = base;
     Eigen::VectorXd moved = Eigen::VectorXd::Zero(fixed + count);
@@ -210,17 +213,17 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
     for (int i = 0; i < count; ++i) columns.push_back(fixed + 1 + first + i);
     const Evidence e = evidence(grams, runs, columns, with_more(base_sds, prior_sd_.segment(first, count)), moved);
     Candidate c;
-    c.family = families_[f];
-    c.start = start_of(families_[f]);
+    c.hypothesis = hypotheses_[f];
+    c.start = start_of(hypotheses_[f]);
     c.gain = e.log_density - without.log_density;
-    bool possible = families_[f].from_zero;
+    bool possible = hypotheses_[f].from_zero;
     for (int i = 0; i < count; ++i) {
       const double mean = e.mean[fixed + i];
-      if (!families_[f].from_zero) {
+      if (!hypotheses_[f].from_zero) {
         if (mean < 0) c.gain = -1e9;  // it would have to act backwards
         continue;
       }
-      const FreeParameter& p = families_[f].parameters[std::size_t(i)];
+      const FreeParameter& p = hypotheses_[f].parameters[std::size_t(i)];
       c.start[i] = std::clamp(mean, p.min, p.max);
       if (p.min >= 0 && mean < 0) {
         const double sigmas = mean / std::sqrt(e.covariance(fixed + i, fixed + i));
@@ -229,12 +232,12 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
       }
     }
     if (possible) c.p_value = chi_squared_tail(misfit_without[e.prior] - e.misfit, count);
-    if (const double shown = shown_start(c.family.effect, model_.habits()); !std::isnan(shown)) {
-      c.start[0] = std::clamp(shown, c.family.parameters[0].min, c.family.parameters[0].max);
+    if (const double shown = shown_start(c.hypothesis.effect, model_.command_features()); !std::isnan(shown)) {
+      c.start[0] = std::clamp(shown, c.hypothesis.parameters[0].min, c.hypothesis.parameters[0].max);
       try_start(fit, c);
     }
-    if (families_[f].effect == "slippery_floor") try_frictions(fit, c);
-    c.gain += model_.log_chance({effect_of(c.family, c.start)});
+    if (hypotheses_[f].effect == "slippery_floor") try_frictions(fit, c);
+    c.gain += model_.log_chance({effect_of(c.hypothesis, c.start)});
     candidates.push_back(std::move(c));
   }
   offer_local(fit, candidates);
@@ -245,14 +248,14 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
 
 std::vector<std::size_t> worth_a_fit(const std::vector<Screen::Candidate>& singles) {
   constexpr std::size_t kFitted = 8;
-  constexpr double kShown = 50;   // log evidence of a demand in commands
+  constexpr double kShown = 50;   // log evidence of a commanded motion in commands
   constexpr double kBehind = 15;  // log evidence
   std::vector<std::size_t> promising;
   for (std::size_t i = 0; i < singles.size(); ++i) {
-    // Where the simulator bends, the screen is only a hint: such families are tried a little longer.
-    if (singles[i].gain < (singles[i].family.from_zero ? 2 : 1)) continue;
+    // Where the simulator bends, the screen is only a hint: such hypotheses are tried a little longer.
+    if (singles[i].gain < (singles[i].hypothesis.from_zero ? 2 : 1)) continue;
     // What commands show is tried however much more the tracks say of something else.
-    const bool shown = is_demand(singles[i].family.effect) && singles[i].gain > kShown;
+    const bool shown = is_commanded_motion(singles[i].hypothesis.effect) && singles[i].gain > kShown;
     if (i >= kFitted && singles[i].gain < singles.front().gain - kBehind && !shown) continue;
     promising.push_back(i);
   }

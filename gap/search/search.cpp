@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "core/error.h"
-#include "gap/evidence/kicks.h"
+#include "gap/evidence/impulsive_residuals.h"
 #include "gap/noise/noise_floor.h"
 #include "gap/search/addition.h"
-#include "gap/search/climb.h"
+#include "gap/search/local_search.h"
 
 namespace umbsim::gap {
 namespace {
@@ -16,38 +16,43 @@ namespace {
 constexpr double kContradicted = 25;  // five standard deviations, squared
 constexpr std::size_t kBases = 2;     // fits that further effects are tried on
 constexpr std::size_t kAdditionsFitted = 5;
-constexpr std::size_t kClimbs = 3;
+constexpr std::size_t kLocalSearches = 3;
 constexpr int kRounds = 7;
 constexpr int kFewerRounds = 4;  // what is there already has been fitted
 constexpr std::size_t kSwapsFitted = 2;
 constexpr int kSwaps = 2;
-constexpr double kAnotherVariant = 3;   // log evidence by which a second family of one effect may promise less
+constexpr double kAnotherVariant = 3;   // log evidence by which a second hypothesis of one effect may promise less
 constexpr double kTwins = 6;            // squared standard deviations between two fits' tracks, all readings
 constexpr double kRivals = 0.8;         // share of an effect's gain that the screen must see in another in its place
 constexpr double kHeld = 0.5;           // of what the screen saw of an effect beside a place, that its fit must hold
 constexpr double kFarBehind = 20;       // log evidence
 constexpr double kHint = 0.02;          // of what explains all, below which nothing else is looked at,
 constexpr double kLocalHint = 0.25;     // and the same of places and moments, which take long
-constexpr double kWorthAClimb = 0.1;    // of what the best single effect explains, the same of the best start
+constexpr double kWorthASearch = 0.1;   // of what the best single effect explains, the same of the best start
 constexpr double kPartOfNeeded = 0.25;  // of what a further effect must bring, the same of its best start
 constexpr double kDoubtful = 0.3;       // of what a further effect must bring
 constexpr double kScreening = 0.2;      // of the time of single effects
 constexpr double kAdding = 0.75;        // of a stage's time that further effects take; the rest are exchanges
-constexpr double kSuddenBeside = 0.05;  // of what is explained, that another engine leaves of kicks
+constexpr double kSuddenBeside = 0.05;  // of what is explained, that another engine leaves of impulses
 
 // Nothing is left but noise, as well as it is known, and nothing sudden, which a few readings show. `none`: the fit of
 // no effect.
 bool explains_all(const Model& model, const Fit& fit, const Fit& none, const Thresholds& t) {
   if (fit.misfit >= (1 + t.noise_error) * model.rows()) return false;
   const double explained = fit.log_evidence - none.log_evidence;
-  return strongest(find_kicks(model, fit)) < t.sudden + kSuddenBeside * explained;
+  return strongest(find_impulses(model, fit)) < t.sudden + kSuddenBeside * explained;
 }
 
 // Forward from single effects, with a look back at what the first one should have been.
 class Search {
  public:
-  Search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say)
-      : model_(model), screen_(screen), thresholds_(thresholds), say_(say), none_(model.none()), fits_{none_} {}
+  Search(const Model& model, const Screen& screen, const Thresholds& thresholds, const ProgressCallback& progress)
+      : model_(model),
+        screen_(screen),
+        thresholds_(thresholds),
+        progress_(progress),
+        none_(model.none()),
+        fits_{none_} {}
 
   Found run() {
     begin("fitting single effects");
@@ -74,25 +79,25 @@ class Search {
     stage_ = stage;
     done(0);
   }
-  void done(double share) const { say_(stage_, share); }
+  void done(double share) const { progress_(stage_, share); }
 
   static bool less_evidence(const Fit& a, const Fit& b) { return a.log_evidence < b.log_evidence; }
 
   std::optional<Fit> tried(const Fit& base, const Screen::Candidate& c, double least) {
-    std::vector<Family> families = base.families;
-    families.push_back(c.family);
+    std::vector<Hypothesis> hypotheses = base.hypotheses;
+    hypotheses.push_back(c.hypothesis);
     try {
       const std::optional<Eigen::VectorXd> from = searched_start(model_, base, c, least);
       if (!from) return std::nullopt;
       Eigen::VectorXd start(base.p.size() + from->size());
       start << base.p, *from;
-      Fit fit =
-          model_.fit(families, start, base.families.empty() ? kRounds : kFewerRounds, {}, screen_.near(base, c.family));
+      Fit fit = model_.fit(hypotheses, start, base.hypotheses.empty() ? kRounds : kFewerRounds, {},
+                           screen_.near(base, c.hypothesis));
       // A place may have been fitted so that it makes up for what is only now beside it. What takes part in the contact
       // would mend how another engine's robot is shaken there.
       const bool less_than_seen = fit.log_evidence < base.log_evidence + kHeld * c.gain;
-      if (base.is_local() && only_rolls(c.family.effect) && c.gain > thresholds_.addition && less_than_seen) {
-        Fit again = model_.fit(families, climbed_again(model_, base, c.family, *from), kFewerRounds);
+      if (base.is_local() && is_kinematic(c.hypothesis.effect) && c.gain > thresholds_.addition && less_than_seen) {
+        Fit again = model_.fit(hypotheses, searched_again(model_, base, c.hypothesis, *from), kFewerRounds);
         if (again.log_evidence > fit.log_evidence) fit = std::move(again);
       }
       fit.size = displacement_m(fit.predicted.tracks, base.predicted.tracks) / model_.noise_floor_m();
@@ -109,7 +114,7 @@ class Search {
   }
 
   void keep_doubtful(const Fit& base, const Needed& needed, Fit fit) {
-    if (base.families.empty() || pays(model_, base, fit, needed, kDoubtful)) doubtful_.push_back(std::move(fit));
+    if (base.hypotheses.empty() || pays(model_, base, fit, needed, kDoubtful)) doubtful_.push_back(std::move(fit));
   }
 
   // What the counts speak against may not explain the tracks, nor what would have made the runs scatter more than they
@@ -122,16 +127,16 @@ class Search {
   bool large_enough(const Fit& base, const Fit& fit) const {
     // Beside a free tracker's frame and clock a robot is as far from the simulator as the nuisances say, however far
     // its noise makes it stray. What moves counts against commands, and not the robot, is seen there.
-    if (model_.tracker_is_free() && !base.families.empty()) return true;
-    const double smallest = base.families.empty() ? thresholds_.smallest : thresholds_.smallest_addition;
+    if (model_.tracker_is_free() && !base.hypotheses.empty()) return true;
+    const double smallest = base.hypotheses.empty() ? thresholds_.smallest : thresholds_.smallest_addition;
     const bool small = fit.size < smallest && fit.seen < thresholds_.least_seen;
-    return !small || shows_in_counts(find_effect(fit.families.back().effect));
+    return !small || shows_in_counts(find_effect(fit.hypotheses.back().effect));
   }
 
   void fit_singles() {
     std::vector<Screen::Candidate> singles = screen_.on_top_of(none_);
     for (const Screen::Candidate& c : singles) {
-      const auto [of_effect, fresh] = p_values_.try_emplace(c.family.effect, c.p_value);
+      const auto [of_effect, fresh] = p_values_.try_emplace(c.hypothesis.effect, c.p_value);
       if (!fresh) of_effect->second = std::min(of_effect->second, c.p_value);
     }
     const std::vector<std::size_t> promising = worth_a_fit(singles);
@@ -140,7 +145,7 @@ class Search {
       Screen::Candidate& c = singles[promising[i]];
       if (!c.starts.empty() && idle(c)) continue;
       const double most = std::max_element(fits_.begin(), fits_.end(), less_evidence)->log_evidence;
-      const double least = none_.log_evidence + kWorthAClimb * (most - none_.log_evidence);
+      const double least = none_.log_evidence + kWorthASearch * (most - none_.log_evidence);
       if (auto fit = tried(none_, c, least)) {
         fits_.push_back(std::move(*fit));
       }
@@ -154,13 +159,13 @@ class Search {
     for (;;) {
       std::optional<Fit> best;
       for (const Screen::Candidate& c : screen_.on_top_of(base)) {
-        if (!is_dimension(c.family.effect)) continue;
+        if (!is_dimension(c.hypothesis.effect)) continue;
         auto fit = tried(base, c, -1e300);
         if (fit && (!best || fit->log_evidence > best->log_evidence)) best = std::move(fit);
       }
       if (!best || best->log_evidence < base.log_evidence + thresholds_.effect_cost) return;
       base = std::move(*best);
-      if (base.families.size() > 1) fits_.push_back(base);
+      if (base.hypotheses.size() > 1) fits_.push_back(base);
     }
   }
 
@@ -172,7 +177,7 @@ class Search {
       if (explains_all(model_, f, none_, thresholds_)) rival = std::max(rival, f.log_evidence - none_.log_evidence);
     }
     if (rival < c.gain) return false;
-    if (c.gain < (c.family.search_cost > 0 ? kLocalHint : kHint) * rival) return true;
+    if (c.gain < (c.hypothesis.search_cost > 0 ? kLocalHint : kHint) * rival) return true;
     return keep_best_starts(model_, none_, c) - none_.log_evidence < rival;
   }
 
@@ -183,7 +188,8 @@ class Search {
     std::vector<Fit> from;
     for (Fit& f : frontier) {
       const bool other = std::none_of(from.begin(), from.end(), [&](const Fit& g) {
-        return g.name() == f.name() || (g.families.size() == f.families.size() && seen_between(model_, g, f) < kTwins);
+        return g.name() == f.name() ||
+               (g.hypotheses.size() == f.hypotheses.size() && seen_between(model_, g, f) < kTwins);
       });
       if (other && from.size() < kBases) from.push_back(std::move(f));
     }
@@ -204,20 +210,20 @@ class Search {
   // Fits of `base` and one effect more that pay.
   void add_to(const Fit& base, Part part, std::vector<Fit>& paying) {
     const Needed needed = addition_needed(model_, base, none_, thresholds_);
-    const double held = model_.density_at(base.families, base.p);
+    const double held = model_.density_at(base.hypotheses, base.p);
     std::size_t fitted = 0;
-    std::size_t climbed = 0;
+    std::size_t local_searches = 0;
     std::map<std::string, double> tried_gain;
     for (const Screen::Candidate& c : screen_.on_top_of(base)) {
       if (fitted == kAdditionsFitted) break;
-      const auto [first, fresh] = tried_gain.try_emplace(c.family.effect, c.gain);
+      const auto [first, fresh] = tried_gain.try_emplace(c.hypothesis.effect, c.gain);
       if (!fresh && c.gain < first->second - kAnotherVariant) continue;
-      // A climb to a place or a moment takes more simulations than all other fits.
-      if (c.reach.size() > 1 && climbed == kClimbs) continue;
-      const bool counts = shows_in_counts(find_effect(c.family.effect));
+      // A local search for a place or a moment takes more simulations than all other fits.
+      if (c.reach.size() > 1 && local_searches == kLocalSearches) continue;
+      const bool counts = shows_in_counts(find_effect(c.hypothesis.effect));
       const double hint = counts ? std::min(needed.hint, 0.5 * needed.counts) : needed.hint;
-      if (c.gain < (c.family.search_cost > 0 ? 0.5 * needed.local : hint)) continue;
-      if (c.reach.size() > 1) ++climbed;
+      if (c.gain < (c.hypothesis.search_cost > 0 ? 0.5 * needed.local : hint)) continue;
+      if (c.reach.size() > 1) ++local_searches;
       done(part.from + part.size * double(fitted) / double(kAdditionsFitted));
       auto fit = tried(base, c, held + kPartOfNeeded * needed.local);
       if (!fit) continue;
@@ -245,13 +251,13 @@ class Search {
   // The first effect was chosen while the others were not there: each but the last is taken out, and what could stand
   // in its place is tried.
   void swap_one(const Fit& whole, std::vector<Fit>& paying) {
-    for (std::size_t out = 0; out + 1 < whole.families.size(); ++out) {
+    for (std::size_t out = 0; out + 1 < whole.hypotheses.size(); ++out) {
       const Fit base = model_.without(whole, out);
       const double worth = whole.log_evidence - base.log_evidence;
       fits_.push_back(base);
       std::size_t fitted = 0;
       for (const Screen::Candidate& c : screen_.on_top_of(base)) {
-        if (c.family.effect == whole.families[out].effect) continue;
+        if (c.hypothesis.effect == whole.hypotheses[out].effect) continue;
         if (c.gain < kRivals * worth || fitted == kSwapsFitted) break;
         if (c.reach.size() > 1) continue;
         auto fit = tried(base, c, -1e300);
@@ -267,7 +273,7 @@ class Search {
   const Model& model_;
   const Screen& screen_;
   const Thresholds& thresholds_;
-  const Say& say_;
+  const ProgressCallback& progress_;
   std::string stage_;
   const Fit none_;
   std::vector<Fit> fits_;
@@ -277,8 +283,8 @@ class Search {
 
 }  // namespace
 
-Found search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say) {
-  return Search(model, screen, thresholds, say).run();
+Found search(const Model& model, const Screen& screen, const Thresholds& thresholds, const ProgressCallback& progress) {
+  return Search(model, screen, thresholds, progress).run();
 }
 
 }  // namespace umbsim::gap

@@ -11,31 +11,31 @@
 
 namespace umbsim::gap {
 
-/// Families of effects with their whitened derivatives from the nominal robot, so that any of them can be tried on top
-/// of any fit by linear algebra.
+/// Hypotheses of effects with their whitened derivatives from the nominal robot, so that any of them can be tried on
+/// top of any fit by linear algebra.
 class Screen {
  public:
   Screen(const Model& model, const std::set<std::string>& excluded);
 
   struct Candidate {
-    Family family;
+    Hypothesis hypothesis;
     Eigen::VectorXd start;
     std::vector<Eigen::VectorXd> starts;  ///< where the simulator bends; empty: only `start`
     Eigen::VectorXd reach;                ///< first steps of a search from the best of them; empty: none
-    int climbs = 1;                       ///< from how many of the best of them
-    bool any_start = false;               ///< climbed however little the best of them explains
+    int local_searches = 1;               ///< from how many of the best of them
+    bool any_start = false;               ///< searched from, however little the best of them explains
     std::vector<std::size_t> shown_by;    ///< runs that show it most, on which starts are tried first; empty: all
     double gain = 0;                      ///< log evidence expected on top of the fit
-    /// Of its numbers against none, were it the only effect asked about (chi-squared); 1 where a family bends.
+    /// Of its numbers against none, were it the only effect asked about (chi-squared); 1 where a hypothesis bends.
     double p_value = 1;
   };
-  /// Families that could explain what `fit` leaves, best first; local ones (places, moments) are searched for anew.
+  /// Hypotheses that could explain what `fit` leaves, best first; local ones (places, moments) are searched for anew.
   std::vector<Candidate> on_top_of(const Fit& fit) const;
 
-  /// Of a fit and a family that acts in proportion on top of it, whose derivatives were taken at the nominal robot.
-  std::optional<Linearisation> near(const Fit& fit, const Family& family) const;
+  /// Of a fit and a hypothesis that acts in proportion on top of it, whose derivatives were taken at the nominal robot.
+  std::optional<Linearisation> near(const Fit& fit, const Hypothesis& hypothesis) const;
 
-  const std::vector<Family>& families() const { return families_; }
+  const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
 
  private:
   void simulate_steps();
@@ -45,8 +45,8 @@ class Screen {
 
   const Model& model_;
   std::set<std::string> excluded_;
-  std::vector<Family> families_;
-  std::vector<std::pair<int, int>> range_;  // of each family's columns
+  std::vector<Hypothesis> hypotheses_;
+  std::vector<std::pair<int, int>> range_;  // of each hypothesis's columns
   std::vector<Eigen::MatrixXd> columns_;    // per run
   Eigen::VectorXd prior_sd_;
 };
@@ -64,6 +64,6 @@ struct Found {
 };
 
 /// Forward from single effects, to thresholds.most_effects of them.
-Found search(const Model& model, const Screen& screen, const Thresholds& thresholds, const Say& say);
+Found search(const Model& model, const Screen& screen, const Thresholds& thresholds, const ProgressCallback& progress);
 
 }  // namespace umbsim::gap

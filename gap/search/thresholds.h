@@ -8,13 +8,13 @@ namespace umbsim::gap {
 /// What the decisions rest on. Tuned on data of its own (docs/gap.md), not on what is diagnosed.
 struct Thresholds {
   double detect = 8;                ///< log evidence that a gap needs,
-  double detect_rolling = 0.5;      ///< and where it is of what only rolls, counts and was asked for: no engines differ
+  double detect_rolling = 0.5;      ///< and where it is kinematic or was asked for: no engines differ
   double effect_cost = 3;           ///< prior log odds against each further effect
   double addition = 10;             ///< log evidence that a further effect needs,
   double addition_share = 0.001;    ///< and the same as a share of what the others gained,
   double misfit_share = 0.05;       ///< and of the excess of the residual that the others leave,
   double local_misfit_share = 0.2;  ///< the same of a place or moment;
-  double counts_share = 0.015;      ///< or, of what counts and habits gain, a share of what they gained before
+  double counts_share = 0.015;  ///< or, of what counts and command features gain, a share of what they gained before
   double counts_misfit_share = 0.2;  ///< and of what they miss
   double smallest = 0.25;          ///< displacement, in noise floors, below which an effect is a difference of engines,
   double least_seen = 0.15;        ///< if it is also below this share of the noise of single readings
@@ -42,6 +42,6 @@ struct Thresholds {
 };
 
 /// Told of every stage, and of the share of it that is done.
-using Say = std::function<void(const std::string& stage, double share)>;
+using ProgressCallback = std::function<void(const std::string& stage, double share)>;
 
 }  // namespace umbsim::gap

@@ -1,11 +1,15 @@
 // The house plan (docs/architecture.md): which folder may include which, who sees Bullet, what stands at the top.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <regex>
 #include <set>
 #include <string>
@@ -34,18 +38,56 @@ const std::map<std::string, Names> kArrows = {
      {"exchange", "experiment", "gap", "calibration", "report", "umbmark", "effects", "recording", "odometry", "sim",
       "batch", "core"}},
 };
-/// Rooms of gap/: a room may include itself and these; files that stand in gap/ itself, the spine, may include all.
-const std::map<std::string, Names> kRoomsOfGap = {
-    {"replay", {}},
-    {"noise", {"replay"}},
-    {"hypotheses", {}},
-    {"evidence", {"replay", "noise", "hypotheses"}},
-    {"search", {"replay", "noise", "hypotheses", "evidence"}},
-    {"answer", {"replay", "noise", "hypotheses", "evidence", "search"}},
-    {"plan", {"replay", "noise", "hypotheses", "evidence", "search", "answer"}},
-    {"output", {"replay", "noise", "hypotheses", "evidence", "search", "answer", "plan"}},
-    {"trial", {}},
+/// Rooms of a folder, in data order: a room may include itself, those before it in its list, and no other. Files that
+/// stand in the folder itself, its spine, may include all rooms, and are seen by few.
+struct Rooms {
+  std::map<std::string, Names> may_include;
+  Names see_the_spine;  ///< rooms that format, sweep or explain what the spine returns
 };
+const std::map<std::string, Rooms> kRooms = {
+    {"gap",
+     {{{"replay", {}},
+       {"noise", {"replay"}},
+       {"hypotheses", {}},
+       {"evidence", {"replay", "noise", "hypotheses"}},
+       {"search", {"replay", "noise", "hypotheses", "evidence"}},
+       {"answer", {"replay", "noise", "hypotheses", "evidence", "search"}},
+       {"plan", {"replay", "noise", "hypotheses", "evidence", "search", "answer"}},
+       {"output", {"replay", "noise", "hypotheses", "evidence", "search", "answer", "plan"}},
+       {"trial", {}}},
+      {}}},
+    {"gap/trial",
+     {{{"draw", {}}, {"write", {"draw"}}, {"diagnose", {"draw", "write"}}, {"score", {"draw", "write", "diagnose"}}},
+      {}}},
+    {"experiment",
+     {{{"scenario", {}},
+       {"drive", {"scenario"}},
+       {"replay", {"scenario", "drive"}},
+       {"robot", {"scenario", "drive"}},
+       {"explain", {"scenario", "drive"}},
+       {"output", {"scenario", "drive", "explain"}},
+       {"sweep", {"scenario", "drive", "output"}}},
+      {"explain", "output", "sweep"}}},
+    {"cli",
+     {{{"help", {}}, {"output", {}}, {"commands", {"help", "output"}}, {"gap", {"help", "output"}}},
+      {"help", "output", "commands", "gap"}}},
+    {"bench/worlds",
+     {{{"engines", {}},
+       {"drivers", {}},
+       {"world", {"engines", "drivers"}},
+       {"run", {"world"}},
+       {"draw", {"world", "run"}},
+       {"inject", {}},
+       {"checks", {"engines"}},
+       {"score", {}},
+       {"commands", {"engines", "world", "run", "draw", "inject", "checks", "score"}}},
+      {}}},
+};
+/// Rooms that are larger, with the reason in docs/architecture.md.
+const Names kLarge = {"sim", "core", "batch", "exchange/bag", "exchange/import"};
+/// A room holds few files of its own, sub-rooms not counted.
+constexpr int kMostFiles = 20;
+constexpr int kMostLines = 2500;
 /// Of effects/, gap/ may see the table only.
 const Names kGapSeesOfEffects = {"effects/catalogue.h", "effects/words.h"};
 
@@ -130,14 +172,168 @@ TEST(Architecture, FoldersIncludeOnlyWhatTheyMay) {
   }
 }
 
-TEST(Architecture, RoomsOfGapIncludeOnlyWhatTheyMay) {
-  for (const Include& i : all_includes()) {
-    const std::vector<std::string> from = parts_of(i.file);
-    const std::vector<std::string> to = parts_of(i.name);
-    if (i.folder != "gap" || from.size() < 3 || to.size() < 3 || to[0] != "gap") continue;
-    const auto room = kRoomsOfGap.find(from[1]);
-    ASSERT_NE(room, kRoomsOfGap.end()) << i.file << " stands in a room that this test does not know";
-    EXPECT_TRUE(to[1] == from[1] || room->second.count(to[1])) << where(i);
+/// The room that a file stands in, of a folder with rooms: "" if it is of the spine, nothing if it is elsewhere.
+std::optional<std::string> room_in(const std::string& folder, const std::string& file) {
+  if (file.rfind(folder + "/", 0) != 0) return {};
+  const std::string rest = file.substr(folder.size() + 1);
+  const std::size_t slash = rest.find('/');
+  return slash == std::string::npos ? "" : rest.substr(0, slash);
+}
+
+TEST(Architecture, RoomsIncludeOnlyWhatTheyMay) {
+  for (const auto& [folder, rooms] : kRooms) {
+    int seen = 0;
+    for (const Include& i : all_includes()) {
+      const auto from = room_in(folder, i.file), to = room_in(folder, i.name);
+      if (!from || !to || from->empty() || *from == *to) continue;
+      ++seen;
+      const auto room = rooms.may_include.find(*from);
+      ASSERT_NE(room, rooms.may_include.end()) << i.file << " stands in a room that this test does not know";
+      const bool may = to->empty() ? rooms.see_the_spine.count(*from) > 0 : room->second.count(*to) > 0;
+      EXPECT_TRUE(may) << where(i);
+    }
+    EXPECT_GT(seen, 0) << folder;
+  }
+}
+
+TEST(Architecture, RoomsAreSmall) {
+  std::map<std::string, std::pair<int, int>> rooms;  // files, lines
+  for (const auto& [folder, below] : kArrows) {
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+      if (!entry.is_regular_file() || !is_source(entry.path())) continue;
+      std::ifstream stream(entry.path());
+      auto& [files, lines] = rooms[fs::relative(entry.path().parent_path(), kRoot).string()];
+      ++files;
+      lines += int(std::count(std::istreambuf_iterator<char>(stream), {}, '\n'));
+    }
+  }
+  for (const auto& [room, size] : rooms) {
+    if (kLarge.count(room)) continue;
+    EXPECT_LE(size.first, kMostFiles) << room;
+    EXPECT_LE(size.second, kMostLines) << room;
+  }
+}
+
+/// Files and functions that are longer, as docs/architecture.md says why: the file, and what it or its longest function
+/// may have.
+constexpr int kLongFile = 300, kLongFunction = 60;
+const std::map<std::string, int> kLongFiles = {{"gap/evidence/fit.cpp", 340}, {"sim/rolling.cpp", 340}};
+const std::map<std::string, int> kLongFunctions = {
+    {"effects/table.cpp", 260},  // tables: one entry an effect, a column, an engine's answer to each effect
+    {"effects/words.cpp", 200},
+    {"exchange/text/column_meaning.cpp", 80},
+    {"bench/worlds/engines/mujoco.cpp", 80},
+    {"gap/evidence/impulsive_residuals.cpp", 120},
+    {"gap/answer/closure.cpp", 85},
+    {"gap/output/diagnosis_json.cpp", 80},
+    {"gap/search/screen.cpp", 75},
+};
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::ifstream stream(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Lines of the longest function, by the house's format: it ends with the first line that begins with a brace.
+int longest_function(const std::vector<std::string>& lines) {
+  static const std::regex other(R"(^(namespace|struct|class|enum|extern|union|const\w* .*=|//|#| |\}).*)");
+  int longest = 0, begin = -1;
+  for (int i = 0; i < int(lines.size()); ++i) {
+    const std::string& line = lines[std::size_t(i)];
+    if (line.empty()) continue;
+    if (begin >= 0 && line[0] == '}') {
+      longest = std::max(longest, i - begin + 1);
+      begin = -1;
+    }
+    if (begin < 0 && line.back() == '{' && !std::regex_match(line, other)) begin = i;
+  }
+  return longest;
+}
+
+TEST(Architecture, FilesAndFunctionsAreShort) {
+  const auto limit = [](const std::map<std::string, int>& longer, const std::string& file, int usual) {
+    const auto found = longer.find(file);
+    return found == longer.end() ? usual : found->second;
+  };
+  int most = 0;
+  Names folders = {"bench"};
+  for (const auto& [folder, below] : kArrows) folders.insert(folder);
+  for (const std::string& folder : folders) {
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+      if (!entry.is_regular_file() || !is_source(entry.path())) continue;
+      const std::string file = fs::relative(entry.path(), kRoot).string();
+      const std::vector<std::string> lines = lines_of(entry.path());
+      const int function = longest_function(lines);
+      most = std::max(most, function);
+      EXPECT_LE(int(lines.size()), limit(kLongFiles, file, kLongFile)) << file;
+      EXPECT_LE(function, limit(kLongFunctions, file, kLongFunction)) << "the longest function of " << file;
+    }
+  }
+  EXPECT_GT(most, kLongFunction) << "functions are not found";
+}
+
+TEST(Architecture, TheDrawingShowsTheIncludes) {
+  if (std::system("python3 --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no python3";
+  const std::string script = (kRoot / "docs/make-architecture.py").string();
+  EXPECT_EQ(std::system(("python3 '" + script + "' --check").c_str()), 0);
+}
+
+/// A file that a page names, and the function that it is named for: "`measure()` (`experiment/measure.cpp`)".
+struct Station {
+  std::string function;
+  std::string file;
+  int line = 0;
+};
+
+std::vector<Station> stations(const std::string& page, const std::string& from, const std::string& to) {
+  std::ifstream stream(kRoot / page);
+  static const std::regex pattern(R"((?:`([A-Za-z_:]+)\(\)`,? \()?`([a-z_]+(?:/[a-z_]+)*/[a-z_]+\.(?:cpp|h))`)");
+  std::vector<Station> found;
+  bool open = from.empty();
+  std::string text;
+  for (int line = 1; std::getline(stream, text); ++line) {
+    if (!from.empty() && text == from) open = true;
+    if (!to.empty() && text == to) open = false;
+    if (!open) continue;
+    for (auto m = std::sregex_iterator(text.begin(), text.end(), pattern); m != std::sregex_iterator(); ++m)
+      found.push_back({(*m)[1], (*m)[2], line});
+  }
+  return found;
+}
+
+bool holds(const fs::path& file, const std::string& word) {
+  std::ifstream stream(file);
+  return std::string(std::istreambuf_iterator<char>(stream), {}).find(word) != std::string::npos;
+}
+
+// Both walks of docs/life-of-a-run.md: every file is there, once, holds the function that it is named for, and in a
+// folder with rooms the walk never goes back to a room that lies before.
+TEST(Architecture, WalksGoForward) {
+  const std::string page = "docs/life-of-a-run.md", second = "## From a recording to a twin";
+  for (const auto& walk : {stations(page, "", second), stations(page, second, "")}) {
+    EXPECT_GT(walk.size(), 8u);
+    Names seen;
+    std::map<std::string, std::string> room_of;
+    for (const Station& s : walk) {
+      SCOPED_TRACE(page + ":" + std::to_string(s.line) + ": " + s.file);
+      ASSERT_TRUE(fs::exists(kRoot / s.file));
+      EXPECT_TRUE(seen.insert(s.file).second) << "a second time";
+      const std::size_t scope = s.function.rfind(':');
+      if (!s.function.empty())
+        EXPECT_TRUE(holds(kRoot / s.file, s.function.substr(scope == std::string::npos ? 0 : scope + 1) + "("))
+            << s.function;
+      for (const std::string folder : {"experiment", "gap"}) {
+        const Rooms& rooms = kRooms.at(folder);
+        const auto room = room_in(folder, s.file);
+        if (!room || room->empty()) continue;
+        std::string& last = room_of[folder];
+        if (!last.empty() && last != *room)
+          EXPECT_EQ(rooms.may_include.at(last).count(*room), 0u) << "back from " << last;
+        last = *room;
+      }
+    }
   }
 }
 

@@ -1,6 +1,6 @@
 // docs/scenario.md says what read_scenario does.
-#include "experiment/scenario.h"
-#include "experiment/sweep.h"
+#include "experiment/scenario/scenario.h"
+#include "experiment/sweep/sweep.h"
 #include "tests/acceptance/markdown.h"
 #include "tests/acceptance/program.h"
 

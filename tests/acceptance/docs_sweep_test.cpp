@@ -1,8 +1,8 @@
 // docs/sweep.md and docs/ci.md: their examples are accepted and work.
 #include <yaml-cpp/yaml.h>
 
-#include "experiment/figures.h"
-#include "experiment/sweep.h"
+#include "experiment/output/figures.h"
+#include "experiment/sweep/sweep.h"
 #include "tests/acceptance/markdown.h"
 #include "tests/acceptance/program.h"
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "experiment/scenario.h"
+#include "experiment/scenario/scenario.h"
 #include "tests/umbmark/exact_kinematics.h"
 
 namespace umbsim {

@@ -59,8 +59,8 @@ std::vector<double> numbers(const Rig& rig) {
   for (const EncoderFaults& faults : {e.left, e.right}) {
     all.insert(all.end(), {faults.missed_probability, faults.missed_probability_per_radps});
   }
-  all.insert(all.end(), {e.sampling_interval_s, e.latency_s, rig.demand.acceleration_factor,
-                         rig.demand.turn_speed_factor, double(rig.pushes.size())});
+  all.insert(all.end(), {e.sampling_interval_s, e.latency_s, rig.commanded_motion.acceleration_factor,
+                         rig.commanded_motion.turn_speed_factor, double(rig.pushes.size())});
   return all;
 }
 

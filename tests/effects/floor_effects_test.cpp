@@ -5,7 +5,7 @@
 
 #include "effects/contact.h"
 #include "effects/floor.h"
-#include "experiment/drive_run.h"
+#include "experiment/drive/drive_run.h"
 #include "tests/effects/trial_drive.h"
 #include "tests/experiment/scenarios.h"
 

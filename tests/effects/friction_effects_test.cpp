@@ -5,7 +5,7 @@
 
 #include "effects/drivetrain.h"
 #include "effects/floor.h"
-#include "experiment/drive_run.h"
+#include "experiment/drive/drive_run.h"
 #include "tests/effects/trial_drive.h"
 #include "tests/experiment/scenarios.h"
 
@@ -128,8 +128,8 @@ TEST(FastTurning, SkidsWhereTheCentreOfMassPullsTheWheelsOff) {
 TEST(FastTurning, IsTheDemandOfTurnsOnly) {
   Rig rig;
   apply(FastTurning{8}, rig);
-  EXPECT_EQ(rig.demand.turn_speed_factor, 8);
-  EXPECT_EQ(rig.demand.acceleration_factor, 1);
+  EXPECT_EQ(rig.commanded_motion.turn_speed_factor, 8);
+  EXPECT_EQ(rig.commanded_motion.acceleration_factor, 1);
   const std::string slow = "effects.fast_turning.factor=1";
   for (const Direction direction : {Direction::cw, Direction::ccw}) {
     const DrivenRun calm = driven("effects/fast_turning", {"course.side_m=1", slow}, direction);

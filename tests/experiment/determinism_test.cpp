@@ -7,7 +7,7 @@
 #include <iterator>
 #include <map>
 
-#include "experiment/result_json.h"
+#include "experiment/output/result_json.h"
 #include "experiment/run.h"
 #include "tests/experiment/scenarios.h"
 

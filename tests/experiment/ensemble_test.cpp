@@ -2,11 +2,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <iostream>
 
-#include <Eigen/LU>
-
-#include "experiment/result_json.h"
+#include "experiment/output/result_json.h"
 #include "experiment/run.h"
 #include "tests/experiment/scenarios.h"
 

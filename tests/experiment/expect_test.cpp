@@ -1,4 +1,4 @@
-#include "experiment/expect.h"
+#include "experiment/scenario/expect.h"
 
 #include <gtest/gtest.h>
 

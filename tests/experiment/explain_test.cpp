@@ -1,5 +1,5 @@
 // Which effect causes what: a single one everything, small ones their sum, large ones an interaction of second order.
-#include "experiment/explain.h"
+#include "experiment/explain/explain.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

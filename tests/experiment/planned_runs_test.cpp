@@ -1,4 +1,4 @@
-#include "experiment/planned_runs.h"
+#include "experiment/drive/planned_runs.h"
 
 #include <set>
 

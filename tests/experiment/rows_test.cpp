@@ -7,8 +7,8 @@
 #include <iterator>
 #include <map>
 
-#include "experiment/figures.h"
-#include "experiment/result_json.h"
+#include "experiment/output/figures.h"
+#include "experiment/output/result_json.h"
 #include "experiment/run.h"
 #include "recording/run_writer.h"
 #include "tests/experiment/scenarios.h"

@@ -1,5 +1,5 @@
 // Scenario files: what is read, what is refused and how, and that the resolved text means the same.
-#include "experiment/scenario.h"
+#include "experiment/scenario/scenario.h"
 
 #include <gtest/gtest.h>
 

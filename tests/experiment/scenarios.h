@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/scenario.h"
+#include "experiment/scenario/scenario.h"
 
 namespace umbsim::testing {
 

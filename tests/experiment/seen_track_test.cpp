@@ -1,5 +1,5 @@
 // Where a tracker saw a robot beside its replay: what a clock and an offset of the tracked point do is no way off.
-#include "experiment/seen_track.h"
+#include "experiment/replay/seen_track.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "experiment/sweep.h"
+#include "experiment/sweep/sweep.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,8 +7,8 @@
 #include <fstream>
 #include <set>
 
-#include "experiment/figures.h"
-#include "experiment/result_json.h"
+#include "experiment/output/figures.h"
+#include "experiment/output/result_json.h"
 
 namespace umbsim {
 namespace {

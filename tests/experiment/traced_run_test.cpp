@@ -1,5 +1,5 @@
 // What happens at a place or at a moment, driven from shortly before it until it is over, against the whole run.
-#include "experiment/traced_run.h"
+#include "experiment/replay/traced_run.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "effects/geometry.h"
-#include "experiment/rolling_noise.h"
+#include "experiment/drive/rolling_noise.h"
 #include "sim/world.h"
 
 namespace umbsim {

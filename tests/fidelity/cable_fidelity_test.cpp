@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "bench/fidelity/cable.h"
+#include "bench/fidelity/contact/cable.h"
 
 namespace umbsim::fidelity {
 namespace {

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "bench/fidelity/cone.h"
+#include "bench/fidelity/contact/cone.h"
+#include "bench/fidelity/contact/loads.h"
 #include "bench/fidelity/energy.h"
-#include "bench/fidelity/loads.h"
 #include "bench/fidelity/plane_dynamics.h"
 #include "bench/fidelity/rolling.h"
 #include "bench/fidelity/steps.h"

@@ -1,4 +1,4 @@
-#include "gap/trial/answers.h"
+#include "gap/trial/write/answers.h"
 #include "tests/fuzz/target.h"
 
 namespace umbsim::fuzz {

@@ -1,6 +1,6 @@
 // The strict YAML reader, and the scenario behind it.
 #include "core/yaml_reader.h"
-#include "experiment/scenario.h"
+#include "experiment/scenario/scenario.h"
 #include "tests/fuzz/target.h"
 
 namespace umbsim::fuzz {

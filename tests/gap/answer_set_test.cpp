@@ -10,14 +10,14 @@ using testing::ElementsAre;
 Fit fit_of(const std::vector<std::string>& effects, double log_evidence) {
   Fit fit;
   for (const std::string& effect : effects) {
-    for (Family& f : plain_families(0.02, 2000)) {
+    for (Hypothesis& f : plain_hypotheses(0.02, 2000)) {
       if (f.effect != effect) continue;
-      fit.families.push_back(std::move(f));
+      fit.hypotheses.push_back(std::move(f));
       break;
     }
   }
   std::size_t numbers = 0;
-  for (const Family& f : fit.families) numbers += f.parameters.size();
+  for (const Hypothesis& f : fit.hypotheses) numbers += f.parameters.size();
   fit.p = Eigen::VectorXd::Zero(Eigen::Index(numbers));
   fit.log_evidence = log_evidence;
   return fit;
@@ -25,7 +25,7 @@ Fit fit_of(const std::vector<std::string>& effects, double log_evidence) {
 
 Diagnosis named(const Fit& fit) {
   Diagnosis d;
-  const std::string name = fit.families.empty() ? "none" : fit.name();
+  const std::string name = fit.hypotheses.empty() ? "none" : fit.name();
   d.causes.push_back({name, fit, 0, 0});
   d.set = {name};
   return d;
@@ -73,7 +73,7 @@ TEST(AnswerSet, WhatStandsBesideTheSamePlaceIsTiedFromFurther) {
     std::vector<Cause> all;
     for (const auto& [effect, score] : {std::pair{"tyre_compliance", 2e5}, std::pair{"wheel_radius_scale", 2e5 - 20}}) {
       Fit fit = fit_of({effect}, score);
-      if (local) fit.families.push_back(patch_family(1, 2));
+      if (local) fit.hypotheses.push_back(patch_hypothesis(1, 2));
       all.push_back({fit.name(), fit, score, 0});
     }
     return all;

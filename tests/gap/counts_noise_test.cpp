@@ -19,10 +19,10 @@ Recording six_runs() {
   return r;
 }
 
-std::vector<CommandFeatures> features(const std::vector<double>& left_gains, double lag_s = 0) {
-  std::vector<CommandFeatures> all;
+std::vector<CommandResponse> features(const std::vector<double>& left_gains, double lag_s = 0) {
+  std::vector<CommandResponse> all;
   for (const double g : left_gains) {
-    CommandFeatures f;
+    CommandResponse f;
     f.known = true;
     f.left_gain = g;
     f.lag_s = lag_s;
@@ -31,7 +31,7 @@ std::vector<CommandFeatures> features(const std::vector<double>& left_gains, dou
   return all;
 }
 
-const std::vector<CommandFeatures> kForetold = features({0, 0, 0, 0, 0, 0});
+const std::vector<CommandResponse> kForetold = features({0, 0, 0, 0, 0, 0});
 
 // Squares about each group's mean: (4 and 2 runs) with 3 + 1 degrees of freedom of each wheel, beside eight usual ones.
 TEST(CountsNoise, GainsScatterAsRunsAlikeSay) {
@@ -43,14 +43,14 @@ TEST(CountsNoise, GainsScatterAsRunsAlikeSay) {
 
 TEST(CountsNoise, AGainThatAllRunsShareIsNoScatter) {
   EXPECT_EQ(gain_scatter(grouped(six_runs()), features({5e-3, 5e-3, 5e-3, 5e-3, 8e-3, 8e-3}), kForetold, 4e-4), 4e-4);
-  std::vector<CommandFeatures> unknown(6);
+  std::vector<CommandResponse> unknown(6);
   EXPECT_EQ(gain_scatter(grouped(six_runs()), unknown, kForetold, 4e-4), 4e-4);
 }
 
 // A lag of 0.1 s is an eighth of a ramp of 0.8 s and a fifth of one of 0.5 s.
 TEST(CountsNoise, CommandsSayLessOfADemandTheMoreCountsLag) {
-  const Habits prompt = habits_sd(six_runs(), kForetold, kForetold);
-  const Habits late = habits_sd(six_runs(), features({0, 0, 0, 0, 0, 0}, 0.1), kForetold);
+  const CommandFeatures prompt = command_features_sd(six_runs(), kForetold, kForetold);
+  const CommandFeatures late = command_features_sd(six_runs(), features({0, 0, 0, 0, 0, 0}, 0.1), kForetold);
   EXPECT_NEAR(late[0], std::hypot(prompt[0], 0.1 / 0.8), 1e-12);
   EXPECT_NEAR(late[1], std::hypot(prompt[1], 0.1 / 0.5), 1e-12);
   for (std::size_t i = 2; i < late.size(); ++i) EXPECT_EQ(late[i], prompt[i]);

@@ -12,14 +12,14 @@
 #include "calibration/intake/intake.h"
 #include "gap/output/diagnosis_json.h"
 #include "gap/search/addition.h"
-#include "tests/gap/patient.h"
+#include "tests/gap/subject.h"
 
 namespace umbsim::gap {
 namespace {
 
 using testing::campaign;
 using testing::effect;
-using testing::Patient;
+using testing::Subject;
 
 std::string text(const Diagnosis& d) {
   std::string all = fmt::format("detected {}, {}, set {}", d.detected, d.stage, fmt::join(d.set, " "));
@@ -50,7 +50,7 @@ bool holds(const std::vector<std::string>& set, const std::string& name) {
 }
 
 TEST(Diagnose, NothingWrongIsNone) {
-  const Patient p(campaign({}, 11));
+  const Subject p(campaign({}, 11));
   EXPECT_TRUE(intake::check_recording(p.recording, ".").empty());
   const Diagnosis d = p.diagnosed();
   std::cout << text(d) << "\n";
@@ -65,7 +65,7 @@ TEST(Diagnose, NothingWrongIsNone) {
 
 TEST(Diagnose, UnequalWheels) {
   constexpr double kTruth = 0.002;
-  const Patient p(campaign({effect("wheel_radius_difference", {{"relative", kTruth}})}, 12));
+  const Subject p(campaign({effect("wheel_radius_difference", {{"relative", kTruth}})}, 12));
   const Diagnosis d = p.diagnosed();
   std::cout << text(d) << "\n";
   EXPECT_TRUE(d.detected);
@@ -86,7 +86,7 @@ TEST(Diagnose, UnequalWheels) {
   // How many threads there are is nobody's business.
   const std::string one = [&] {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 1);
-    const Patient again(p.recording);
+    const Subject again(p.recording);
     return diagnosis_json(again.diagnosed()).dump();
   }();
   EXPECT_EQ(diagnosis_json(d).dump(), one);
@@ -94,7 +94,7 @@ TEST(Diagnose, UnequalWheels) {
 
 TEST(Diagnose, Wheelbase) {
   constexpr double kTruth = 0.01;
-  const Patient p(campaign({effect("wheelbase", {{"relative", kTruth}})}, 13));
+  const Subject p(campaign({effect("wheelbase", {{"relative", kTruth}})}, 13));
   const Diagnosis d = p.diagnosed();
   std::cout << text(d) << "\n";
   EXPECT_EQ(d.causes.front().name, "wheelbase");
@@ -104,7 +104,7 @@ TEST(Diagnose, Wheelbase) {
 
 TEST(Diagnose, ACableOnTheFloorAndItsPlace) {
   constexpr double kX_m = 1.1, kY_m = -0.17, kHeight_m = 0.006;
-  const Patient p(campaign({effect("bump", {{"height_m", kHeight_m}, {"x_m", kX_m}, {"y_m", kY_m}})}, 14));
+  const Subject p(campaign({effect("bump", {{"height_m", kHeight_m}, {"x_m", kX_m}, {"y_m", kY_m}})}, 14));
   const Diagnosis d = p.diagnosed();
   std::cout << text(d) << "\n";
   EXPECT_EQ(d.causes.front().name, "bump");
@@ -118,9 +118,9 @@ TEST(Diagnose, ACableOnTheFloorAndItsPlace) {
   for (const Cause& c : without.causes) EXPECT_EQ(c.name.find("bump"), std::string::npos);
 }
 
-// Counts and habits show it as plainly beside a large error of the tracks as alone.
+// Counts and command features show it as plainly beside a large error of the tracks as alone.
 TEST(Diagnose, WhatOnlyCommandsShowBesideALargeEffect) {
-  const Patient p(
+  const Subject p(
       campaign({effect("wheel_eccentricity", {{"right_m", 0.002}}), effect("fast_turning", {{"factor", 1.5}})}, 16));
   const Diagnosis d = p.diagnosed();
   std::cout << text(d) << "\n";
@@ -130,7 +130,7 @@ TEST(Diagnose, WhatOnlyCommandsShowBesideALargeEffect) {
 // The twin of a diagnosis is a scenario that leaves nothing to be found.
 TEST(Diagnose, NothingIsLeftBesideWhatTheScenarioHas) {
   const Effect wheelbase = effect("wheelbase", {{"relative", 0.008}});
-  const Diagnosis d = Patient(campaign({wheelbase}, 12), {wheelbase}).diagnosed();
+  const Diagnosis d = Subject(campaign({wheelbase}, 12), {wheelbase}).diagnosed();
   std::cout << text(d) << "\n";
   EXPECT_FALSE(d.detected);
   EXPECT_EQ(d.causes.front().name, "none");
@@ -140,7 +140,7 @@ TEST(Diagnose, NothingIsLeftBesideWhatTheScenarioHas) {
 TEST(Diagnose, APayloadThatNobodyToldOfOnSoftTyres) {
   const Effect tyres = effect("tyre_compliance", {{"metres_per_newton", 2e-6}});
   const Effect load = effect("load_shift", {{"payload_kg", 12}, {"left_m", 0.12}, {"height_m", 0.1}});
-  const Diagnosis d = Patient(campaign({tyres, load}, 22), {tyres}).diagnosed();
+  const Diagnosis d = Subject(campaign({tyres, load}, 22), {tyres}).diagnosed();
   std::cout << text(d) << "\n";
   EXPECT_EQ(d.causes.front().name, "load_shift");
 }
@@ -148,7 +148,7 @@ TEST(Diagnose, APayloadThatNobodyToldOfOnSoftTyres) {
 // Larger wheels explain all that soft tyres do but for a few per cent: how the loaded runs differ. No contact can be to
 // blame for that, so that the double is not named.
 TEST(Diagnose, TheDoubleOfSoftTyresLeavesTooMuch) {
-  const Patient p(campaign({effect("tyre_compliance", {{"metres_per_newton", 3e-6}})}, 31));
+  const Subject p(campaign({effect("tyre_compliance", {{"metres_per_newton", 3e-6}})}, 31));
   const Diagnosis whole = p.diagnosed();
   const Diagnosis without = p.diagnosed({"tyre_compliance"});
   std::cout << text(whole) << "\n" << text(without) << "\n";
@@ -157,14 +157,14 @@ TEST(Diagnose, TheDoubleOfSoftTyresLeavesTooMuch) {
   const auto radius = std::find_if(without.causes.begin(), without.causes.end(),
                                    [](const Cause& c) { return c.name == "wheel_radius_scale"; });
   ASSERT_NE(radius, without.causes.end());
-  EXPECT_TRUE(radius->fit.only_rolls());
+  EXPECT_TRUE(radius->fit.is_kinematic());
   // Not by the share that is asked of effects with a contact in them.
   EXPECT_GT(radius->score, 0.93 * whole.causes.front().score);
 }
 
 // The tracks may be beyond the catalogue: what commands show is true all the same.
 TEST(Diagnose, WhatCommandsShowStandsBesideUnknown) {
-  const Patient p(
+  const Subject p(
       campaign({effect("wheel_eccentricity", {{"right_m", 0.002}}), effect("fast_turning", {{"factor", 3}})}, 16));
   const Diagnosis d = p.diagnosed({"wheel_eccentricity"});
   std::cout << text(d) << "\n";
@@ -175,7 +175,7 @@ TEST(Diagnose, WhatCommandsShowStandsBesideUnknown) {
 // How tyres slip under a demand is not always reproduced: turns that go wrong where commands show that they were too
 // fast do so for that reason. (Here a wheelbase that the catalogue lacks stands for the tyres.)
 TEST(Diagnose, ADemandThatCommandsShowExplainsWhatGoesWrongInTurns) {
-  const Patient p(campaign({effect("wheelbase", {{"relative", 0.008}}), effect("fast_turning", {{"factor", 3}})}, 16));
+  const Subject p(campaign({effect("wheelbase", {{"relative", 0.008}}), effect("fast_turning", {{"factor", 3}})}, 16));
   EXPECT_EQ(p.diagnosed().causes.front().name, "fast_turning+wheelbase");
   const Diagnosis d = p.diagnosed({"wheelbase"});
   std::cout << text(d) << "\n";
@@ -187,8 +187,8 @@ TEST(Diagnose, ADemandThatCommandsShowExplainsWhatGoesWrongInTurns) {
 Fit fit_of(const std::vector<std::string>& effects) {
   Fit fit;
   for (const std::string& effect : effects) {
-    fit.families.emplace_back();
-    fit.families.back().effect = effect;
+    fit.hypotheses.emplace_back();
+    fit.hypotheses.back().effect = effect;
   }
   return fit;
 }
@@ -208,7 +208,7 @@ TEST(Addition, WhatLooksLikeAnErrorOfTheFirstEffectMustBringMore) {
 }
 
 TEST(Diagnose, ASmallEffectBesideALargeOne) {
-  const Patient p(campaign(
+  const Subject p(campaign(
       {effect("wheel_eccentricity", {{"right_m", 0.002}}), effect("wheel_radius_difference", {{"relative", 0.0012}})},
       17));
   const Diagnosis d = p.diagnosed();
@@ -224,11 +224,11 @@ TEST(Diagnose, ASmallEffectBesideALargeOne) {
 
 // A few per cent of friction lie between no slip at all and many noise floors.
 TEST(Diagnose, AFloorThatIsHardlyTooSlippery) {
-  const double slips_at = Patient(campaign({}, 8)).model.slips_at();
+  const double slips_at = Subject(campaign({}, 8)).model.slips_at();
   ASSERT_GT(slips_at, 0);
   const double friction = 0.97 * slips_at;
-  const Patient patient(campaign({effect("slippery_floor", {{"friction", friction}})}, 8));
-  const Diagnosis d = patient.diagnosed();
+  const Subject subject(campaign({effect("slippery_floor", {{"friction", friction}})}, 8));
+  const Diagnosis d = subject.diagnosed();
   std::cout << text(d);
   ASSERT_EQ(d.causes[0].name, "slippery_floor");
   EXPECT_NEAR(d.causes[0].fit.p[0], friction, 0.01 * friction);
@@ -239,7 +239,7 @@ TEST(Diagnose, ASlipperyPatchAtACorner) {
   constexpr double kX_m = 1.95, kY_m = -0.17, kFriction = 0.043;
   const Effect patch =
       effect("slippery_patch", {{"x_m", kX_m}, {"y_m", kY_m}, {"radius_m", 0.1}, {"friction", kFriction}});
-  const Diagnosis d = Patient(campaign({patch}, 21)).diagnosed();
+  const Diagnosis d = Subject(campaign({patch}, 21)).diagnosed();
   std::cout << text(d) << "\n";
   ASSERT_EQ(d.causes.front().name, "slippery_patch");
   EXPECT_NEAR(d.causes.front().fit.p[0], kFriction, 0.05 * kFriction);
@@ -248,7 +248,7 @@ TEST(Diagnose, ASlipperyPatchAtACorner) {
 
 TEST(Diagnose, ProbabilitiesSumToOne) {
   Recording few = campaign({effect("wheelbase", {{"relative", 0.01}})}, 15, 1);
-  const Diagnosis d = Patient(few).diagnosed();
+  const Diagnosis d = Subject(few).diagnosed();
   double sum = 0;
   for (const Cause& c : d.causes) sum += c.probability;
   EXPECT_NEAR(sum, 1, 1e-9);

@@ -7,14 +7,14 @@
 #include <iostream>
 
 #include "odometry/encoder.h"
-#include "tests/gap/patient.h"
+#include "tests/gap/subject.h"
 
 namespace umbsim::gap {
 namespace {
 
 using testing::campaign;
 using testing::effect;
-using testing::Patient;
+using testing::Subject;
 
 constexpr double kWay_m = 1;
 constexpr double kSpeed_radps = 4;
@@ -88,7 +88,7 @@ TEST(LostByChance, NothingIsLostByOtherEffects) {
 
 // Lost counts and unequal radii move the robot alike; the runs' scatter tells which it was.
 TEST(LostByChance, UnequalRadiiAreNoLostCounts) {
-  const Patient p(campaign({effect("wheel_radius_difference", {{"relative", 0.001}})}, 72));
+  const Subject p(campaign({effect("wheel_radius_difference", {{"relative", 0.001}})}, 72));
   const Effect lost = effect("encoder_missed_counts", {{"right_probability", 0.001}});
   std::cout << "log likelihood of the little scatter, were a thousandth of the counts lost: "
             << p.model.log_chance({lost}) << "\n";
@@ -104,7 +104,7 @@ TEST(LostByChance, ManyLostCountsScatterAsTheyMust) {
   for (const double probability : {0.004, 0.006}) {
     const Effect lost =
         effect("encoder_missed_counts", {{"left_probability", probability}, {"right_probability", probability}});
-    const Patient p(campaign({lost}, 74));
+    const Subject p(campaign({lost}, 74));
     const double chance = p.model.log_chance({lost});
     std::cout << "log likelihood of the scatter, were " << probability << " lost: " << chance << "\n";
     EXPECT_GT(chance, -4);
@@ -113,7 +113,7 @@ TEST(LostByChance, ManyLostCountsScatterAsTheyMust) {
 
 TEST(LostByChance, LostCountsScatterAsTheyMust) {
   const Effect lost = effect("encoder_missed_counts", {{"right_probability", 0.001}});
-  const Patient p(campaign({lost}, 73));
+  const Subject p(campaign({lost}, 73));
   std::cout << "log likelihood of the scatter of lost counts: " << p.model.log_chance({lost}) << "\n";
   EXPECT_GT(p.model.log_chance({lost}), -2);
   EXPECT_EQ(p.diagnosed().causes.front().name, "encoder_missed_counts");

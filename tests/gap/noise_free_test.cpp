@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "gap/noise/least_noise.h"
-#include "tests/gap/patient.h"
+#include "tests/gap/subject.h"
 
 namespace umbsim::gap {
 namespace {
 
 using testing::effect;
-using testing::Patient;
+using testing::Subject;
 using Numbers = std::vector<std::pair<std::string, double>>;
 
 struct Case {
@@ -104,7 +104,7 @@ class NoiseFree : public ::testing::TestWithParam<std::tuple<std::size_t, bool>>
 TEST_P(NoiseFree, IsNamed) {
   const auto [index, small] = GetParam();
   const Case& c = cases()[index];
-  const Patient p(driven(c, small), is_there(c.believed) ? std::vector<Effect>{c.believed} : std::vector<Effect>{});
+  const Subject p(driven(c, small), is_there(c.believed) ? std::vector<Effect>{c.believed} : std::vector<Effect>{});
   const Diagnosis d = p.diagnosed();
   std::cout << c.effect << ": " << d.causes.front().name << ", " << d.before_mm << " mm, floor " << d.noise_floor_mm
             << " mm, set";
@@ -137,7 +137,7 @@ TEST(NoiseFree, ARobotWithoutAnyFaultHasNoGap) {
   for (const bool small : {false, true}) {
     Scenario s = testing::squares(small ? kSmallSide_m : kLabmateSide_m, kPerDirection);
     if (small) s.robot.urdf = "optiodom.urdf";
-    const Patient p(run_experiment(s, 0).recording);
+    const Subject p(run_experiment(s, 0).recording);
     const Diagnosis d = p.diagnosed();
     EXPECT_EQ(d.causes.front().name, "none");
     EXPECT_FALSE(d.detected);
@@ -148,7 +148,7 @@ TEST(NoiseFree, ARobotWithoutAnyFaultHasNoGap) {
 TEST(NoiseFree, NoiseIsNoLessThanCountsCanShow) {
   Scenario s = testing::squares(1, 2);
   const Recording alike = run_experiment(s, 0).recording;
-  const Patient p(alike);
+  const Subject p(alike);
   constexpr double kHalfACount_m = 2 * M_PI * 0.075 / 2000 / 3.4641;
   EXPECT_GE(p.model.noise().position_sd_m, kHalfACount_m / M_SQRT2);
   EXPECT_GE(p.model.noise().heading_sd_rad, kHalfACount_m * M_SQRT2 / 0.34);

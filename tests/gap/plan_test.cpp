@@ -7,7 +7,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "experiment/planned_runs.h"
+#include "experiment/drive/planned_runs.h"
 #include "gap/plan/menu.h"
 #include "gap/plan/select.h"
 #include "tests/gap/recordings.h"
@@ -102,13 +102,13 @@ TEST(Plan, ARotatedStartTellsCarpetFromGeometry) {
 
 Signature one_number(const std::string& effect, int first, double prior_sd) {
   Signature s;
-  s.planned.family = {effect,
-                      "",
-                      {{"x", 0, 1, prior_sd, -1e9, 1e9}},
-                      [effect](const Eigen::VectorXd&) { return neutral_effect(find_effect(effect)).values; },
-                      {},
-                      true,
-                      0};
+  s.planned.hypothesis = {effect,
+                          "",
+                          {{"x", 0, 1, prior_sd, -1e9, 1e9}},
+                          [effect](const Eigen::VectorXd&) { return neutral_effect(find_effect(effect)).values; },
+                          {},
+                          true,
+                          0};
   s.first = first;
   s.count = 1;
   s.prior_sd = Eigen::VectorXd::Constant(1, prior_sd);

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiment/replay.h"
+#include "experiment/replay/replay.h"
 #include "experiment/run.h"
 #include "gap/replay/simulator.h"
 
@@ -87,7 +87,7 @@ inline gap::Simulator simulator(const Replay& replay) {
             return replay.poses(run, effects, roughness_m_per_sqrt_m);
           },
           [&replay](std::size_t run, const std::vector<Effect>& effects) { return replay.counts(run, effects); },
-          [&replay](const std::vector<Effect>& effects) { return replay.habits(effects); },
+          [&replay](const std::vector<Effect>& effects) { return replay.command_features(effects); },
           [&replay](const std::vector<Effect>& effects) { return replay.scrubs(effects); },
           replay.wheel_width_m(),
           replay.nominal().total_mass_kg()};

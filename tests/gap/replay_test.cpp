@@ -1,12 +1,12 @@
 // What run_experiment drove is driven again from its ticks: the truth must come out.
-#include "experiment/replay.h"
+#include "experiment/replay/replay.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <iostream>
 
-#include "gap/replay/command_features.h"
+#include "gap/replay/command_response.h"
 #include "recording/coarse_counts.h"
 #include "tests/gap/recordings.h"
 
@@ -197,8 +197,8 @@ TEST(ReplayOfCommands, AStepToAndFroIsNoGain) {
   for (const double ticks : {70.0, 150.0, 500.0}) {
     const Recording recording = coarse(ticks, 2000);
     for (const RecordedRun& run : recording.runs) {
-      const gap::CommandFeatures f =
-          gap::command_features(run, gap::counted_rad(run, recording.robot), 2 * M_PI / ticks);
+      const gap::CommandResponse f =
+          gap::command_response(run, gap::counted_rad(run, recording.robot), 2 * M_PI / ticks);
       std::cout << fmt::format("{} ticks, {}: gains {:+.5f} {:+.5f}, uncertain by {:.5f}\n", ticks, run.id, f.left_gain,
                                f.right_gain, f.gain_sd);
       EXPECT_LT(std::abs(f.left_gain), 3 * f.gain_sd);
@@ -208,7 +208,7 @@ TEST(ReplayOfCommands, AStepToAndFroIsNoGain) {
 }
 
 // Ramps of two samples, and turns that are over before they are fast, show less than was asked for.
-TEST(ReplayOfCommands, HabitsShowAsMuchOfADemandAsTheRecording) {
+TEST(ReplayOfCommands, CommandFeaturesShowAsMuchOfADemandAsTheRecording) {
   for (const auto& [name, factor] : {std::pair<const char*, double>{"over_acceleration", 5},
                                      {"over_acceleration", 25},
                                      {"fast_turning", 2},
@@ -218,12 +218,13 @@ TEST(ReplayOfCommands, HabitsShowAsMuchOfADemandAsTheRecording) {
     const Recording recording = run_experiment(s, 0).recording;
     std::vector<std::vector<Stretch>> all;
     for (const RecordedRun& run : recording.runs) all.push_back(stretches(run, recording.robot));
-    const Habits measured = measured_habits(recording, all, 1);
+    const CommandFeatures measured = measured_command_features(recording, all, 1);
     s.effects.clear();
     const Recording plain = run_experiment(s, 0).recording;
-    const Habits foretold = Replay(scenario_of(plain, "."), plain).habits({effect(name, {{"factor", factor}})});
+    const CommandFeatures foretold =
+        Replay(scenario_of(plain, "."), plain).command_features({effect(name, {{"factor", factor}})});
     for (std::size_t i = 0; i < 3; ++i) {
-      std::cout << fmt::format("{} x {}: habit {} {:.3f}, foretold {:.3f}, asked {:.3f}\n", name, factor, i,
+      std::cout << fmt::format("{} x {}: command feature {} {:.3f}, foretold {:.3f}, asked {:.3f}\n", name, factor, i,
                                measured[i], foretold[i], std::log(factor));
       EXPECT_NEAR(foretold[i], measured[i], 0.05);
     }
@@ -241,7 +242,7 @@ TEST(ReplayOfCommands, RareSamplingShowsInCountsThatStandStill) {
       const Recording recording = run_experiment(s, 0).recording;
       std::vector<std::vector<Stretch>> all;
       for (const RecordedRun& run : recording.runs) all.push_back(stretches(run, recording.robot));
-      const double measured = measured_habits(recording, all, count_step(recording))[3];
+      const double measured = measured_command_features(recording, all, count_step(recording))[3];
       const double truth = std::log(interval_s * recording.encoder_rate_hz);
       std::cout << fmt::format("{} s, {} ticks: log of the ratio {:.4f} of {:.4f}\n", interval_s, ticks, measured,
                                truth);

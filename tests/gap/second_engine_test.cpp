@@ -8,8 +8,8 @@
 
 #include "calibration/intake/intake.h"
 #include "gap/output/diagnosis_json.h"
-#include "tests/gap/patient.h"
 #include "tests/gap/recordings.h"
+#include "tests/gap/subject.h"
 
 namespace umbsim::gap {
 namespace {
@@ -28,7 +28,7 @@ double made_by_this_engine(const Model& model) {
 // Nobody says which engine drove: how little turns, legs, tyres and lags stray does.
 TEST(WhoseEngine, RunsWithoutAnEffectSayWhichDroveThem) {
   for (const std::uint64_t seed : {81u, 82u, 83u}) {
-    const testing::Patient ours(testing::campaign({}, seed));
+    const testing::Subject ours(testing::campaign({}, seed));
     const double gain = made_by_this_engine(ours.model);
     std::cout << fmt::format("this engine, seed {}: {:+.1f}\n", seed, gain);
     EXPECT_GT(gain, 0) << seed;

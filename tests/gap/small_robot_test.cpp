@@ -9,13 +9,13 @@
 #include "gap/evidence/drivable.h"
 #include "gap/noise/clock.h"
 #include "gap/output/diagnosis_json.h"
-#include "tests/gap/patient.h"
+#include "tests/gap/subject.h"
 
 namespace umbsim::gap {
 namespace {
 
 using testing::effect;
-using testing::Patient;
+using testing::Subject;
 
 Recording optiodom_squares(const std::vector<Effect>& hidden) {
   Scenario s = testing::squares(1, 2);
@@ -28,15 +28,15 @@ Recording optiodom_squares(const std::vector<Effect>& hidden) {
 
 // Mass (3.3 kg) times what the centre of mass lies ahead of the axle is all that holds it against a load behind.
 TEST(SmallRobot, ALoadThatTipsItIsSteppedLess) {
-  const Patient p(optiodom_squares({effect("wheelbase", {{"relative", 0.01}})}));
-  std::vector<Family> loads = plain_families(0.02, 2000);
-  std::erase_if(loads, [](const Family& f) { return f.effect != "load_shift"; });
+  const Subject p(optiodom_squares({effect("wheelbase", {{"relative", 0.01}})}));
+  std::vector<Hypothesis> loads = plain_hypotheses(0.02, 2000);
+  std::erase_if(loads, [](const Hypothesis& f) { return f.effect != "load_shift"; });
   ASSERT_EQ(loads.size(), 1u);
-  const Family& whole = loads.front();
+  const Hypothesis& whole = loads.front();
   Eigen::VectorXd tips = Eigen::VectorXd::Zero(Eigen::Index(whole.parameters.size()));
   tips[1] = whole.parameters[1].step;
   EXPECT_THROW(p.model.predict({effects_of(whole, tips)}), InputError) << "else this shows nothing";
-  const std::vector<Family> kept = drivable(p.model, loads);
+  const std::vector<Hypothesis> kept = drivable(p.model, loads);
   ASSERT_EQ(kept.size(), 1u);
   for (std::size_t i = 0; i < kept.front().parameters.size(); ++i) {
     Eigen::VectorXd stepped = Eigen::VectorXd::Zero(Eigen::Index(kept.front().parameters.size()));
@@ -50,9 +50,9 @@ TEST(SmallRobot, ALoadThatTipsItIsSteppedLess) {
 }
 
 TEST(SmallRobot, WhatNoStepDrivesIsLeftOut) {
-  const Patient p(optiodom_squares({}));
-  Family heavy;
-  for (const Family& f : plain_families(0.02, 2000)) {
+  const Subject p(optiodom_squares({}));
+  Hypothesis heavy;
+  for (const Hypothesis& f : plain_hypotheses(0.02, 2000)) {
     if (f.effect == "load_shift") heavy = f;
   }
   ASSERT_FALSE(heavy.parameters.empty());
@@ -76,8 +76,8 @@ TEST(SmallRobot, AStepTooFarIsTakenBack) {
   };
   const Campaign campaign = campaign_of(recording);
   const Model model(campaign, narrow, Scatter{});
-  std::vector<Family> wheelbase = plain_families(0.02, 2000);
-  std::erase_if(wheelbase, [](const Family& f) { return f.effect != "wheelbase"; });
+  std::vector<Hypothesis> wheelbase = plain_hypotheses(0.02, 2000);
+  std::erase_if(wheelbase, [](const Hypothesis& f) { return f.effect != "wheelbase"; });
   ASSERT_EQ(wheelbase.size(), 1u);
   EXPECT_THROW(model.density_at(wheelbase, Eigen::VectorXd::Constant(1, kTruth)), RunError)
       << "else this shows nothing";
@@ -95,7 +95,7 @@ TEST(SmallRobot, ARealOneIsDiagnosed) {
   const Recording recording = read_recording(folder);
   intake::check_recording(recording, folder.string());
   std::vector<std::string> limits;
-  const Patient p(followed_through(recording, limits));
+  const Subject p(followed_through(recording, limits));
   const Diagnosis d = p.diagnosed();
   std::cout << d.causes.front().name << ", closure " << d.closure.fraction << "\n";
   EXPECT_NE(d.causes.front().name.find("wheelbase"), std::string::npos) << d.causes.front().name;

@@ -109,16 +109,16 @@ TEST(TrackFilter, HasTheDensityOfTheWholeTrack) {
   path.resize(n);
   const std::vector<double> rolled_m = rolled(path);
   const TrackFilter filter(path, rolled_m, kNoise);
-  // Covariance from the definition: every kick of process noise carried to every later sample by finite poses.
+  // Covariance from the definition: every impulse of process noise carried to every later sample by finite poses.
   const Eigen::Index rows = 3 * Eigen::Index(n);
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(rows, rows);
   const auto add = [&](std::size_t from, int axis, double variance) {
     constexpr double kTiny = 1e-6;
     Eigen::VectorXd effect = Eigen::VectorXd::Zero(rows);
-    const Pose2 kick{axis == 0 ? kTiny : 0, axis == 1 ? kTiny : 0, axis == 2 ? kTiny : 0};
+    const Pose2 impulse{axis == 0 ? kTiny : 0, axis == 1 ? kTiny : 0, axis == 2 ? kTiny : 0};
     for (std::size_t k = from; k < n; ++k) {
       const Pose2 moved = inverse(path[from]) * path[k];
-      const Pose2 e = inverse(moved) * kick * moved;
+      const Pose2 e = inverse(moved) * impulse * moved;
       effect.segment<3>(3 * Eigen::Index(k)) << e.x_m / kTiny, e.y_m / kTiny, e.theta_rad / kTiny;
     }
     C += variance * effect * effect.transpose();
@@ -141,7 +141,7 @@ TEST(TrackFilter, HasTheDensityOfTheWholeTrack) {
   const Eigen::VectorXd y = 1e-3 * random_column(5).head(rows);
   const Eigen::LDLT<Eigen::MatrixXd> ldlt(C);
   const double quadratic = y.dot(ldlt.solve(y));
-  // Finite kicks are off by their size times the heading change; condition number 1e4.
+  // Finite impulses are off by their size times the heading change; condition number 1e4.
   EXPECT_NEAR(filter.whiten(y).squaredNorm(), quadratic, 1e-4 * quadratic);
   EXPECT_NEAR(filter.log_det(), ldlt.vectorD().array().log().sum(), 1e-3);
 }
@@ -159,18 +159,18 @@ TEST(TrackFilter, WhitensColumnsAlikeAndLinearly) {
   EXPECT_LT((filter.whiten(a) - white.col(0)).norm(), 1e-14 * scale);
 }
 
-TEST(TrackFilter, KickProductsAreThoseOfThePropagatedKick) {
+TEST(TrackFilter, ImpulseProductsAreThoseOfThePropagatedImpulse) {
   const std::vector<Pose2> path = bent_path();
   const TrackFilter filter(path, rolled(path), kNoise);
   const Eigen::VectorXd white = filter.whiten(random_column(3));
-  const TrackFilter::KickProducts products = filter.kick_products(white);
+  const TrackFilter::ImpulseProducts products = filter.impulse_products(white);
   for (const std::size_t k : {std::size_t(0), std::size_t(1), std::size_t(190), std::size_t(219), kSamples - 1}) {
     SCOPED_TRACE(k);
     Eigen::MatrixXd columns(white.size(), 3);
     for (int axis = 0; axis < 3; ++axis) {
-      std::vector<Eigen::Vector3d> kicks(kSamples, Eigen::Vector3d::Zero());
-      kicks[k][axis] = 1;
-      columns.col(axis) = filter.whiten(filter.propagate(kicks));
+      std::vector<Eigen::Vector3d> impulses(kSamples, Eigen::Vector3d::Zero());
+      impulses[k][axis] = 1;
+      columns.col(axis) = filter.whiten(filter.propagate(impulses));
     }
     const Eigen::Vector3d with_column = columns.transpose() * white;
     const Eigen::Matrix3d with_itself = columns.transpose() * columns;
@@ -179,20 +179,20 @@ TEST(TrackFilter, KickProductsAreThoseOfThePropagatedKick) {
   }
 }
 
-// What a kick does to the track is what it does to the poses themselves.
+// What an impulse does to the track is what it does to the poses themselves.
 TEST(TrackFilter, PropagatesLikePoses) {
   const std::vector<Pose2> path = bent_path();
   const TrackFilter filter(path, rolled(path), kNoise);
   constexpr std::size_t at = 100;
   constexpr double kSmall = 1e-5;
-  std::vector<Eigen::Vector3d> kicks(kSamples, Eigen::Vector3d::Zero());
-  kicks[at] = kSmall * Eigen::Vector3d(1, -2, 1.5);
+  std::vector<Eigen::Vector3d> impulses(kSamples, Eigen::Vector3d::Zero());
+  impulses[at] = kSmall * Eigen::Vector3d(1, -2, 1.5);
   std::vector<Pose2> kicked(path.begin(), path.begin() + at);
-  const Pose2 off = path[at] * Pose2{kicks[at][0], kicks[at][1], kicks[at][2]};
+  const Pose2 off = path[at] * Pose2{impulses[at][0], impulses[at][1], impulses[at][2]};
   for (std::size_t k = at; k < kSamples; ++k) kicked.push_back(off * (inverse(path[at]) * path[k]));
   const Eigen::VectorXd expected = track_error(path, kicked);
-  // Second order in the kick, over a path of some metres.
-  EXPECT_LT((filter.propagate(kicks) - expected).lpNorm<Eigen::Infinity>(), 20 * kSmall * kSmall);
+  // Second order in the impulse, over a path of some metres.
+  EXPECT_LT((filter.propagate(impulses) - expected).lpNorm<Eigen::Infinity>(), 20 * kSmall * kSmall);
 }
 
 }  // namespace

@@ -10,15 +10,15 @@
 #include "gap/answer/twin.h"
 #include "gap/diagnose.h"
 #include "gap/evidence/track_misfit.h"
-#include "gap/replay/command_features.h"
-#include "tests/gap/patient.h"
+#include "gap/replay/command_response.h"
+#include "tests/gap/subject.h"
 
 namespace umbsim::gap {
 namespace {
 
 using testing::campaign;
 using testing::effect;
-using testing::Patient;
+using testing::Subject;
 
 /// With squares that begin a quarter turn further: they pass the legs of the others the other way.
 Recording turned_campaign(const std::vector<Effect>& hidden, std::uint64_t seed) {
@@ -37,7 +37,7 @@ Recording turned_campaign(const std::vector<Effect>& hidden, std::uint64_t seed)
 const Effect kUneven = effect("uneven_floor", {{"rms_m", 0.002}, {"wavelength_m", 0.5}, {"seed", 5}});
 
 TEST(UnevenFloor, HeightAndWavelengthFromTheShiftsOfPasses) {
-  const Patient p(turned_campaign({kUneven}, 21));
+  const Subject p(turned_campaign({kUneven}, 21));
   const auto found = find_uneven_floor(p.model, p.model.none());
   ASSERT_TRUE(found);
   std::cout << fmt::format("{:.1f} standard errors, rms {:.2f} mm of 2, wavelength {:.3f} m of 0.5\n", found->sigmas,
@@ -51,7 +51,7 @@ TEST(UnevenFloor, WhereTheWayBackPitchesTheOtherWay) {
   int found = 0;
   for (const double seed : {1, 2, 3, 4, 5, 6}) {
     const Effect floor = effect("uneven_floor", {{"rms_m", 0.003}, {"wavelength_m", 0.35}, {"seed", seed}});
-    const Patient p(turned_campaign({floor}, 25));
+    const Subject p(turned_campaign({floor}, 25));
     const auto uneven = find_uneven_floor(p.model, p.model.none());
     std::cout << fmt::format("floor {}: {:.1f} standard errors\n", seed, uneven ? uneven->sigmas : 0.0);
     found += uneven ? 1 : 0;
@@ -60,16 +60,16 @@ TEST(UnevenFloor, WhereTheWayBackPitchesTheOtherWay) {
 }
 
 TEST(UnevenFloor, NotOnAFlatFloorNorFromPassesInOneDirection) {
-  const Patient flat(turned_campaign({effect("wheelbase", {{"relative", 0.01}})}, 22));
+  const Subject flat(turned_campaign({effect("wheelbase", {{"relative", 0.01}})}, 22));
   EXPECT_FALSE(find_uneven_floor(flat.model, flat.model.none()));
-  const Patient eccentric(turned_campaign({effect("wheel_eccentricity", {{"left_m", 0.001}})}, 23));
+  const Subject eccentric(turned_campaign({effect("wheel_eccentricity", {{"left_m", 0.001}})}, 23));
   EXPECT_FALSE(find_uneven_floor(eccentric.model, eccentric.model.none()));
-  const Patient one_way(campaign({kUneven}, 21));
+  const Subject one_way(campaign({kUneven}, 21));
   EXPECT_FALSE(find_uneven_floor(one_way.model, one_way.model.none()));
 }
 
 TEST(UnevenFloor, IsNamedAndStaysOutOfTheTwin) {
-  const Patient p(turned_campaign({kUneven}, 21));
+  const Subject p(turned_campaign({kUneven}, 21));
   const Diagnosis d = p.diagnosed();
   ASSERT_EQ(d.causes.front().name, "uneven_floor");
   EXPECT_EQ(d.stage, "floor");
@@ -80,7 +80,7 @@ TEST(UnevenFloor, IsNamedAndStaysOutOfTheTwin) {
 
 // What all turns share is no noise, even if no effect of the catalogue is allowed to say so.
 TEST(Unknown, AWheelbaseThatTheCatalogueLacks) {
-  const Patient p(turned_campaign({effect("wheelbase", {{"relative", -0.004}})}, 24));
+  const Subject p(turned_campaign({effect("wheelbase", {{"relative", -0.004}})}, 24));
   EXPECT_EQ(p.diagnosed().causes.front().name, "wheelbase");
   EXPECT_EQ(p.diagnosed({"wheelbase"}).causes.front().name, "unknown");
 }
@@ -119,8 +119,8 @@ TEST(MotorScatter, GainsDifferFromRunToRun) {
   s.noise.motor_scatter = 0;
   const Recording exact = run_experiment(s, 0).recording;
   const auto gains = [](const Recording& r, std::size_t run) {
-    const CommandFeatures f =
-        command_features(r.runs[run], counted_rad(r.runs[run], r.robot), 2 * M_PI / r.robot.ticks_per_revolution);
+    const CommandResponse f =
+        command_response(r.runs[run], counted_rad(r.runs[run], r.robot), 2 * M_PI / r.robot.ticks_per_revolution);
     return Eigen::Vector2d(f.left_gain, f.right_gain);
   };
   double square = 0;

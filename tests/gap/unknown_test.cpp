@@ -5,35 +5,35 @@
 #include <iostream>
 
 #include "gap/evidence/generic.h"
+#include "gap/evidence/impulsive_residuals.h"
 #include "gap/plan/ties.h"
-#include "gap/evidence/kicks.h"
-#include "tests/gap/patient.h"
+#include "tests/gap/subject.h"
 
 namespace umbsim::gap {
 namespace {
 
 using testing::campaign;
 using testing::effect;
-using testing::Patient;
+using testing::Subject;
 
 std::string first(const Diagnosis& d) { return d.causes.front().name; }
 
-TEST(Unknown, NothingWrongHasNeitherKicksNorLateReadings) {
-  double kick = 0;
+TEST(Unknown, NothingWrongHasNeitherImpulsesNorLateReadings) {
+  double impulse = 0;
   double late = 0;
   for (const std::uint64_t seed : {61, 62, 63}) {
-    const Patient p(campaign({}, seed));
-    kick = std::max(kick, strongest(find_kicks(p.model, p.model.none())));
+    const Subject p(campaign({}, seed));
+    impulse = std::max(impulse, strongest(find_impulses(p.model, p.model.none())));
     late = std::max(late, late_gain(p.model, p.model.none()));
   }
-  std::cout << "log evidence without any effect: kick " << kick << ", late readings " << late << "\n";
-  EXPECT_LT(kick, Thresholds{}.sudden / 2);
+  std::cout << "log evidence without any effect: impulse " << impulse << ", late readings " << late << "\n";
+  EXPECT_LT(impulse, Thresholds{}.sudden / 2);
   EXPECT_LT(late, Thresholds{}.late / 10);
 }
 
 // A motor's lag explains that counts follow commands late, and not that the tracker saw the robot turn before.
 TEST(Unknown, LateCountsAreNoSlowMotor) {
-  const Patient p(campaign({effect("encoder_latency", {{"seconds", 0.03}})}, 64));
+  const Subject p(campaign({effect("encoder_latency", {{"seconds", 0.03}})}, 64));
   EXPECT_EQ(first(p.diagnosed()), "encoder_latency");
   const Diagnosis without = p.diagnosed({"encoder_latency"});
   std::cout << "late readings: " << late_gain(p.model, p.model.none()) << " of log evidence, then " << first(without)
@@ -44,7 +44,7 @@ TEST(Unknown, LateCountsAreNoSlowMotor) {
 
 // Late counts move the robot as rare ones do, but do not stand still.
 TEST(Unknown, RareCountsAreNoLateOnes) {
-  const Patient p(campaign({effect("encoder_sampling", {{"interval_s", 0.024}})}, 67));
+  const Subject p(campaign({effect("encoder_sampling", {{"interval_s", 0.024}})}, 67));
   EXPECT_EQ(first(p.diagnosed()), "encoder_sampling");
   EXPECT_EQ(first(p.diagnosed({"encoder_sampling"})), "unknown");
 }
@@ -54,24 +54,24 @@ TEST(Unknown, WearOfBothWheelsIsNoSmallerWheel) {
   Scenario worn = testing::squares(2, 4);
   testing::add_noise(worn, 68);
   worn.effects = {effect("wear", {{"left_relative_per_run", -2e-4}, {"right_relative_per_run", -2e-4}})};
-  const Patient p(run_experiment(worn, 0).recording);
+  const Subject p(run_experiment(worn, 0).recording);
   EXPECT_EQ(first(p.diagnosed()), "wear");
   EXPECT_EQ(first(p.diagnosed({"wear"})), "unknown");
 }
 
 TEST(Unknown, AWeakPushThatTheCatalogueLacks) {
   const Effect push = effect("push", {{"impulse_newton_seconds", 20}, {"leg", 2}, {"seconds_into_leg", 3}}, "cw-1");
-  const Patient p(campaign({push}, 65));
+  const Subject p(campaign({push}, 65));
   EXPECT_EQ(first(p.diagnosed()), "push");
   const Diagnosis without = p.diagnosed({"push"});
-  std::cout << "kick: " << strongest(find_kicks(p.model, p.model.none())) << " of log evidence, then " << first(without)
-            << "\n";
+  std::cout << "impulse: " << strongest(find_impulses(p.model, p.model.none())) << " of log evidence, then "
+            << first(without) << "\n";
   EXPECT_EQ(first(without), "unknown");
 }
 
 // Were both radii off by little, soft tyres would be named in their place: the exclusion decides, and is told so.
 TEST(Unknown, AnExcludedDoubleIsListedAsSuch) {
-  const Patient p(campaign({effect("wheel_radius_scale", {{"relative", -0.0004}})}, 66));
+  const Subject p(campaign({effect("wheel_radius_scale", {{"relative", -0.0004}})}, 66));
   const std::set<std::string> excluded{"wheel_radius_scale"};
   const Diagnosis d = p.diagnosed(excluded);
   ASSERT_EQ(first(d), "tyre_compliance");

@@ -11,17 +11,17 @@
 namespace umbsim::gap {
 namespace {
 
-Family family_of(const std::string& effect, const std::string& variant) {
-  for (const Family& f : plain_families(0.02, 2000)) {
+Hypothesis hypothesis_of(const std::string& effect, const std::string& variant) {
+  for (const Hypothesis& f : plain_hypotheses(0.02, 2000)) {
     if (f.effect == effect && f.variant == variant) return f;
   }
-  throw std::logic_error("no family " + effect);
+  throw std::logic_error("no hypothesis " + effect);
 }
 
 /// A cause whose numbers are known to `share` of themselves.
-Cause cause(const std::vector<Family>& families, const std::vector<double>& numbers, double share) {
+Cause cause(const std::vector<Hypothesis>& hypotheses, const std::vector<double>& numbers, double share) {
   Cause c;
-  c.fit.families = families;
+  c.fit.hypotheses = hypotheses;
   c.fit.p = Eigen::Map<const Eigen::VectorXd>(numbers.data(), Eigen::Index(numbers.size()));
   const Eigen::VectorXd sd = share * c.fit.p.cwiseAbs();
   c.fit.covariance = sd.cwiseAbs2().asDiagonal();
@@ -30,7 +30,7 @@ Cause cause(const std::vector<Family>& families, const std::vector<double>& numb
   return c;
 }
 
-Cause wheelbase(double relative) { return cause({family_of("wheelbase", "relative")}, {relative}, 0.1); }
+Cause wheelbase(double relative) { return cause({hypothesis_of("wheelbase", "relative")}, {relative}, 0.1); }
 
 Cause unknown_cause() {
   Cause c;
@@ -88,8 +88,8 @@ TEST(Verdict, WhatIsNoMoreThanNoiseIsNotCalledUnexplained) {
 }
 
 TEST(Verdict, SeveralCausesAreASentenceEachInTheOrderOfTheirNames) {
-  const std::string text = said(
-      found({cause({family_of("wheelbase", "relative"), family_of("encoder_latency", "delay")}, {0.005, 0.1}, 0.1)}));
+  const std::string text = said(found(
+      {cause({hypothesis_of("wheelbase", "relative"), hypothesis_of("encoder_latency", "delay")}, {0.005, 0.1}, 0.1)}));
   EXPECT_EQ(text.find("The encoders' readings arrive 100 ms"), 0u) << text;
   expect_in(text, ". The wheelbase is 0.50 %");
   expect_in(text, "Together they take away 34 of 45 mm");
@@ -108,8 +108,8 @@ TEST(Verdict, TiesAndTheNextExperiment) {
 }
 
 TEST(Verdict, OfCombinationsOnlyThePartInDoubtIsNamed) {
-  Diagnosis d =
-      found({cause({family_of("wheelbase", "relative"), family_of("encoder_latency", "delay")}, {0.005, 0.1}, 0.1)});
+  Diagnosis d = found(
+      {cause({hypothesis_of("wheelbase", "relative"), hypothesis_of("encoder_latency", "delay")}, {0.005, 0.1}, 0.1)});
   d.set = {"encoder_latency+wheelbase", "motor_response+wheelbase"};
   d.indistinguishable = {{"wheelbase", "contact_patch"}};
   expect_in(said(d),
@@ -133,7 +133,7 @@ TEST(Verdict, NoGapSaysHowFarOffAndWhatCouldStillBe) {
 }
 
 TEST(Verdict, UnknownNamesWhatComesNearestAndWhereTheRestSits) {
-  Cause nearest = cause({family_of("slippery_floor", "friction")}, {0.06}, 0.1);
+  Cause nearest = cause({hypothesis_of("slippery_floor", "friction")}, {0.06}, 0.1);
   nearest.squared_error_drop = 0.19;
   Diagnosis d = found({unknown_cause(), nearest});
   d.set = {"unknown", "slippery_floor"};
@@ -147,7 +147,7 @@ TEST(Verdict, UnknownNamesWhatComesNearestAndWhereTheRestSits) {
 }
 
 TEST(Verdict, APlaceHasItsWheel) {
-  Diagnosis d = found({cause({bump_family(2, -0.17, 0)}, {0.006, 0.001}, 0.1)});
+  Diagnosis d = found({cause({bump_hypothesis(2, -0.17, 0)}, {0.006, 0.001}, 0.1)});
   d.has_place = true;
   d.place_m[0] = 2.001;
   d.place_m[1] = -0.17;
@@ -158,7 +158,7 @@ TEST(Verdict, APlaceHasItsWheel) {
 }
 
 TEST(Verdict, APushHasItsRunAndLeg) {
-  const std::string text = said(found({cause({push_family("cw-1", 2, 6, 40)}, {-30, 0.001}, 0.1)}));
+  const std::string text = said(found({cause({push_hypothesis("cw-1", 2, 6, 40)}, {-30, 0.001}, 0.1)}));
   EXPECT_EQ(text.find("Something pushed the robot to the right with 30"), 0u) << text;
   expect_in(text, "into leg 2 of run cw-1.");
 }
@@ -180,9 +180,9 @@ TEST(Verdict, MissingClosureIsSaid) {
 
 // Everything of the catalogue at once, with the longest names.
 TEST(DiagnosisText, FitsATerminal) {
-  std::vector<Family> longest{family_of("wheel_radius_difference", "right over left"),
-                              family_of("encoder_missed_counts", "left and right"),
-                              family_of("wheel_misalignment", "both")};
+  std::vector<Hypothesis> longest{hypothesis_of("wheel_radius_difference", "right over left"),
+                                  hypothesis_of("encoder_missed_counts", "left and right"),
+                                  hypothesis_of("wheel_misalignment", "both")};
   Diagnosis d = found({cause(longest, {0.002, 0.001, 0.002, 0.01, -0.01}, 0.3),
                        cause({longest[0], longest[1]}, {0.002, 0.001, 0.002}, 0.3), wheelbase(0.01)});
   for (const Cause& c : d.causes) d.set.push_back(c.name);

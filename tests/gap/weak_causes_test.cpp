@@ -7,14 +7,14 @@
 #include <iostream>
 
 #include "gap/output/diagnosis_json.h"
-#include "tests/gap/patient.h"
+#include "tests/gap/subject.h"
 
 namespace umbsim::gap {
 namespace {
 
 using testing::campaign;
 using testing::effect;
-using testing::Patient;
+using testing::Subject;
 
 /// The estimate of a parameter of the first cause, printed.
 ParameterEstimate estimate(const Diagnosis& d, const std::string& parameter) {
@@ -34,7 +34,7 @@ bool holds(const ParameterEstimate& e, double truth) { return e.ci95[0] <= truth
 TEST(WeakCause, AShortLiftAtACorner) {
   const double x_m = 2 + 0.17 * std::cos(0.3);
   const double y_m = 0.17 * std::sin(0.3);
-  const Patient p(campaign({effect("wheel_lift", {{"x_m", x_m}, {"y_m", y_m}, {"length_m", 0.03}})}, 71));
+  const Subject p(campaign({effect("wheel_lift", {{"x_m", x_m}, {"y_m", y_m}, {"length_m", 0.03}})}, 71));
   const Diagnosis d = p.diagnosed();
   ASSERT_EQ(d.causes.front().name, "wheel_lift");
   EXPECT_LT(std::hypot(estimate(d, "x_m").value - x_m, estimate(d, "y_m").value - y_m), 0.02);
@@ -43,7 +43,7 @@ TEST(WeakCause, AShortLiftAtACorner) {
 
 // Toed against each other by the same angle, wheels only scrub: nothing of that is proportional to the angle near zero.
 TEST(WeakCause, WheelsToedAlike) {
-  const Patient p(campaign({effect("wheel_misalignment", {{"left_toe_rad", 0.04}, {"right_toe_rad", -0.04}})}, 72, 4));
+  const Subject p(campaign({effect("wheel_misalignment", {{"left_toe_rad", 0.04}, {"right_toe_rad", -0.04}})}, 72, 4));
   const Diagnosis d = p.diagnosed();
   ASSERT_EQ(d.causes.front().name, "wheel_misalignment");
   EXPECT_TRUE(holds(estimate(d, "left_toe_rad"), 0.04));
@@ -52,28 +52,28 @@ TEST(WeakCause, WheelsToedAlike) {
 
 // How much of one wheel's toe moves the robot sideways hangs on the floor's roughness.
 TEST(WeakCause, OneToedWheelOnARoughFloor) {
-  const Patient p(campaign({effect("wheel_misalignment", {{"left_toe_rad", 0.015}})}, 73));
+  const Subject p(campaign({effect("wheel_misalignment", {{"left_toe_rad", 0.015}})}, 73));
   const Diagnosis d = p.diagnosed();
   ASSERT_EQ(d.causes.front().name, "wheel_misalignment");
   const ParameterEstimate e = estimate(d, "left_toe_rad");
   EXPECT_NEAR(e.value, 0.015, 0.15 * 0.015);
   EXPECT_TRUE(holds(e, 0.015));
   // What the scenario believes scrubs on the same floor: with the twin's toe nothing is left.
-  const Patient again(p.recording, {effect("wheel_misalignment", {{"left_toe_rad", e.value}})});
+  const Subject again(p.recording, {effect("wheel_misalignment", {{"left_toe_rad", e.value}})});
   EXPECT_EQ(again.diagnosed().causes.front().name, "none");
 }
 
 // Both make turns smaller; a contact's width does so more while the turn speeds up, for that takes force.
 TEST(WeakCause, AContactsWidthIsNoWheelbase) {
   const double width_m = 0.025;
-  const Patient wide(campaign({effect("contact_patch", {{"width_m", width_m}})}, 83));
+  const Subject wide(campaign({effect("contact_patch", {{"width_m", width_m}})}, 83));
   const Diagnosis d = wide.diagnosed();
   ASSERT_EQ(d.causes.front().name, "contact_patch");
   const ParameterEstimate e = estimate(d, "width_m");
   EXPECT_NEAR(e.value, width_m, 0.05 * width_m);
   EXPECT_TRUE(holds(e, width_m));
   const double alike = width_m * width_m / (2 * 0.34 * 0.34);
-  const Patient based(campaign({effect("wheelbase", {{"relative", alike}})}, 84));
+  const Subject based(campaign({effect("wheelbase", {{"relative", alike}})}, 84));
   const Diagnosis other = based.diagnosed();
   ASSERT_EQ(other.causes.front().name, "wheelbase");
   EXPECT_TRUE(holds(estimate(other, "relative"), alike));
@@ -81,14 +81,14 @@ TEST(WeakCause, AContactsWidthIsNoWheelbase) {
 
 // A contact of 48 mm would do what this wheelbase does, but the wheels are 30 mm wide.
 TEST(WeakCause, AContactIsNoWiderThanItsWheel) {
-  const Patient p(campaign({effect("wheelbase", {{"relative", 0.01}})}, 85));
+  const Subject p(campaign({effect("wheelbase", {{"relative", 0.01}})}, 85));
   EXPECT_DOUBLE_EQ(p.model.wheel_width_m(), 0.03);
   EXPECT_EQ(p.diagnosed({"wheelbase"}).causes.front().name, "unknown");
 }
 
 // Recordings of this engine show that no other one made them: then a turn that is off by 0.06 % is no engine's.
 TEST(WeakCause, AWheelbaseThatIsHardlyOff) {
-  const Patient p(campaign({effect("wheelbase", {{"relative", 6e-4}})}, 77));
+  const Subject p(campaign({effect("wheelbase", {{"relative", 6e-4}})}, 77));
   // So little takes as much from turns as a contact of 12 mm, and the runs can hardly tell the two apart.
   const std::vector<std::string> set = p.diagnosed().set;
   EXPECT_EQ(std::count(set.begin(), set.end(), "wheelbase"), 1);
@@ -101,13 +101,13 @@ TEST(WeakCause, AWheelbaseThatIsHardlyOff) {
 // Tyres that give way sideways as MuJoCo's do, 6 % more than this engine's: such a recording's turns may be off by
 // more.
 TEST(WeakCause, AnotherEnginesTurnsAreNoWheelbase) {
-  const Patient p(campaign({effect("tyre_creep", {{"across", 0.06}}), effect("wheelbase", {{"relative", 2e-4}})}, 78));
+  const Subject p(campaign({effect("tyre_creep", {{"across", 0.06}}), effect("wheelbase", {{"relative", 2e-4}})}, 78));
   const Diagnosis d = p.diagnosed({"tyre_creep"});
   EXPECT_EQ(d.causes.front().name, "none");
 }
 
 TEST(WeakCause, MotorsThatLagByFifteenMilliseconds) {
-  const Patient p(campaign({effect("motor_response", {{"lag_s", 0.015}})}, 79));
+  const Subject p(campaign({effect("motor_response", {{"lag_s", 0.015}})}, 79));
   const Diagnosis d = p.diagnosed();
   ASSERT_EQ(d.causes.front().name, "motor_response");
   const ParameterEstimate e = estimate(d, "lag_s");
@@ -122,7 +122,7 @@ TEST(WeakCause, MotorsThatLagByFifteenMilliseconds) {
 TEST(WeakCause, DISABLED_RadiiBesideALift) {
   const Effect lift =
       effect("wheel_lift", {{"x_m", 2 + 0.17 * std::cos(0.3)}, {"y_m", 0.17 * std::sin(0.3)}, {"length_m", 0.045}});
-  const Patient p(campaign({effect("wheel_radius_scale", {{"relative", -1e-3}}), lift}, 81));
+  const Subject p(campaign({effect("wheel_radius_scale", {{"relative", -1e-3}}), lift}, 81));
   const Diagnosis d = p.diagnosed();
   ASSERT_EQ(d.causes.front().name, "wheel_lift+wheel_radius_scale");
   EXPECT_TRUE(holds(estimate(d, "relative"), -1e-3));
@@ -131,7 +131,7 @@ TEST(WeakCause, DISABLED_RadiiBesideALift) {
 
 // Late counts shake the tracks by much and move the robot by little: no error of theirs is a wheelbase.
 TEST(WeakCause, AWheelbaseBesideLateCounts) {
-  const Patient p(
+  const Subject p(
       campaign({effect("encoder_latency", {{"seconds", 0.02}}), effect("wheelbase", {{"relative", -0.002}})}, 75));
   const Diagnosis d = p.diagnosed();
   ASSERT_EQ(d.causes.front().name, "encoder_latency+wheelbase");
@@ -140,7 +140,7 @@ TEST(WeakCause, AWheelbaseBesideLateCounts) {
 
 // Samples a tenth rarer than the readings lag by anything up to a period already.
 TEST(WeakCause, RareSamplesBesideLateCounts) {
-  const Patient p(campaign(
+  const Subject p(campaign(
       {effect("encoder_latency", {{"seconds", 0.04}}), effect("encoder_sampling", {{"interval_s", 0.0222}})}, 76));
   const Diagnosis d = p.diagnosed();
   ASSERT_EQ(d.causes.front().name, "encoder_latency+encoder_sampling");
@@ -149,7 +149,7 @@ TEST(WeakCause, RareSamplesBesideLateCounts) {
 
 // One encoder that loses counts is simpler than two, and hardly differs from two of which one loses few.
 TEST(WeakCause, AnIntervalAllowsForTheOtherWheel) {
-  const Patient p(campaign({effect("encoder_missed_counts", {{"left_probability", 0.002}})}, 74));
+  const Subject p(campaign({effect("encoder_missed_counts", {{"left_probability", 0.002}})}, 74));
   const Diagnosis d = p.diagnosed();
   ASSERT_EQ(d.causes.front().name, "encoder_missed_counts");
   ASSERT_FALSE(d.causes.front().variants.empty());
@@ -162,7 +162,7 @@ TEST(WeakCause, AnIntervalAllowsForTheOtherWheel) {
 // Turns hardly faster than declared move no robot otherwise: only the commands show them.
 TEST(WeakCause, TurnsALittleFasterThanDeclared) {
   const std::vector<Effect> faster{effect("fast_turning", {{"factor", 1.15}})};
-  const Patient p(campaign(faster, 75));
+  const Subject p(campaign(faster, 75));
   const Diagnosis d = p.diagnosed();
   ASSERT_EQ(d.causes.front().name, "fast_turning");
   const ParameterEstimate e = estimate(d, "factor");
@@ -172,13 +172,13 @@ TEST(WeakCause, TurnsALittleFasterThanDeclared) {
   EXPECT_EQ(without.causes.front().name, "unknown");
 }
 
-// A family with one number, 1 +- 0.1 of its units.
+// A hypothesis with one number, 1 +- 0.1 of its units.
 Fit told(const std::string& variant, double value, double sd) {
   Fit fit;
-  for (const Family& f : plain_families(0.02, 2000)) {
-    if (f.effect == "wear" && f.variant == variant) fit.families = {f};
+  for (const Hypothesis& f : plain_hypotheses(0.02, 2000)) {
+    if (f.effect == "wear" && f.variant == variant) fit.hypotheses = {f};
   }
-  const Eigen::Index n = Eigen::Index(fit.families.front().parameters.size());
+  const Eigen::Index n = Eigen::Index(fit.hypotheses.front().parameters.size());
   fit.p = Eigen::VectorXd::Constant(n, value);
   fit.covariance = Eigen::MatrixXd::Identity(n, n) * sd * sd;
   return fit;

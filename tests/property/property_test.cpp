@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "core/error.h"
-#include "experiment/result_json.h"
+#include "experiment/output/result_json.h"
 #include "experiment/run.h"
 #include "report/report.h"
 #include "tests/property/draw.h"

@@ -1,6 +1,6 @@
 // Worlds from a seed: the same bytes on any number of threads, in any shards, after an interruption; and headers that
 // say nothing of the effect.
-#include "bench/worlds/draw.h"
+#include "bench/worlds/draw/draw.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 
 #include "core/error.h"
 #include "core/text_file.h"
-#include "gap/trial/answers.h"
-#include "gap/trial/seal.h"
+#include "gap/trial/write/answers.h"
+#include "gap/trial/write/seal.h"
 
 namespace umbsim::worlds {
 namespace {

@@ -1,5 +1,5 @@
 // Drivers on a robot that does exactly what it is told.
-#include "bench/worlds/driver.h"
+#include "bench/worlds/drivers/driver.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // This simulator behind the engines' interface, and what acts from outside.
 #include <gtest/gtest.h>
 
-#include "bench/worlds/severity.h"
+#include "bench/worlds/run/severity.h"
 #include "core/error.h"
 #include "sim/world.h"
 

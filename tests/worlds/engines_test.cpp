@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "bench/worlds/checks/robots.h"
-#include "bench/worlds/engine.h"
+#include "bench/worlds/engines/engine.h"
 #include "core/error.h"
 #include "effects/contact.h"
 #include "effects/geometry.h"

@@ -1,12 +1,12 @@
 // Faults put into recordings are found again by the classical figures.
-#include "bench/worlds/inject.h"
+#include "bench/worlds/inject/inject.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "core/error.h"
-#include "gap/trial/answers.h"
+#include "gap/trial/write/answers.h"
 #include "umbmark/figures.h"
 
 namespace umbsim::worlds {

@@ -1,5 +1,5 @@
 // Effects outside the catalogue against what they say they do.
-#include "bench/worlds/outside.h"
+#include "bench/worlds/world/outside.h"
 
 #include <gtest/gtest.h>
 

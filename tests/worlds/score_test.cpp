@@ -1,5 +1,5 @@
 // Figures of a few verdicts whose answers can be counted by hand.
-#include "bench/worlds/score.h"
+#include "bench/worlds/score/score.h"
 
 #include <gtest/gtest.h>
 

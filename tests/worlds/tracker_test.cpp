@@ -1,4 +1,4 @@
-#include "bench/worlds/tracker.h"
+#include "bench/worlds/world/tracker.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // Which worlds count as driven: every run to its end, near where its course ends.
-#include "bench/worlds/world_run.h"
+#include "bench/worlds/run/world_run.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "bench/worlds/compare.h"
+#include "bench/worlds/run/compare.h"
 
 namespace umbsim::worlds {
 namespace {

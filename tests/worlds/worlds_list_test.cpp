@@ -1,6 +1,6 @@
 // Cases that are listed: the same bytes however they are drawn, the effect that the list names, and lists that are
 // refused with file, line, key, value and bound.
-#include "bench/worlds/worlds_list.h"
+#include "bench/worlds/draw/worlds_list.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 
 #include "core/error.h"
 #include "core/text_file.h"
-#include "gap/trial/answers.h"
-#include "gap/trial/seal.h"
-#include "gap/trial/severity.h"
+#include "gap/trial/draw/severity.h"
+#include "gap/trial/write/answers.h"
+#include "gap/trial/write/seal.h"
 
 namespace umbsim::worlds {
 namespace {

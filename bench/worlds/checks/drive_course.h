@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/worlds/engine.h"
+#include "bench/worlds/engines/engine.h"
 
 namespace umbsim::worlds {
 

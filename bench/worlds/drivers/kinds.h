@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/worlds/driver.h"
+#include "bench/worlds/drivers/driver.h"
 
 namespace umbsim::worlds {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/worlds/engine.h"
+#include "bench/worlds/engines/engine.h"
 
 namespace umbsim::worlds {
 

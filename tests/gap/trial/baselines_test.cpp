@@ -1,4 +1,5 @@
-#include "gap/trial/baselines.h"
+#include "gap/trial/score/baselines.h"
+
 #include "tests/gap/trial/fake_simulator.h"
 
 namespace umbsim::trial_testing {

@@ -1,7 +1,8 @@
+#include "gap/trial/draw/cases.h"
+
 #include <algorithm>
 #include <set>
 
-#include "gap/trial/cases.h"
 #include "tests/gap/trial/fake_simulator.h"
 
 namespace umbsim::trial_testing {

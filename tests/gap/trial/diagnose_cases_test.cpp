@@ -1,11 +1,12 @@
+#include "gap/trial/diagnose/diagnose_cases.h"
+
 #include <gmock/gmock.h>
 
 #include <cstdlib>
 #include <set>
 
 #include "core/error.h"
-#include "gap/trial/diagnose_cases.h"
-#include "gap/trial/seal.h"
+#include "gap/trial/write/seal.h"
 #include "tests/gap/trial/fake_simulator.h"
 
 namespace umbsim::trial_testing {
@@ -112,7 +113,7 @@ TEST(DiagnoseCases, ShardsTogetherAreTheWhole) {
   EXPECT_EQ(desk.diagnose(desk.writes(), {1, 2}).finished, 3u);
 }
 
-TEST(DiagnoseCases, AStrangersFolderNeedsRecordingsOnly) {
+TEST(DiagnoseCases, AForeignFolderNeedsRecordingsOnly) {
   Desk desk;
   fs::remove(desk.folder.path / "t" / "cases.json");
   EXPECT_EQ(desk.diagnose(desk.writes()).finished, 3u);

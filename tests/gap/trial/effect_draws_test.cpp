@@ -1,7 +1,8 @@
+#include "gap/trial/draw/effect_draws.h"
+
 #include <algorithm>
 #include <set>
 
-#include "gap/trial/effect_draws.h"
 #include "tests/gap/trial/fake_simulator.h"
 
 namespace umbsim::trial_testing {

@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "core/random.h"
-#include "gap/trial/severity.h"
+#include "gap/trial/draw/severity.h"
 
 namespace umbsim::trial_testing {
 

@@ -1,12 +1,13 @@
+#include "gap/trial/write/generate.h"
+
 #include <gmock/gmock.h>
 
 #include <atomic>
 #include <set>
 
 #include "core/error.h"
-#include "gap/trial/even_tables.h"
-#include "gap/trial/generate.h"
-#include "gap/trial/seal.h"
+#include "gap/trial/write/even_tables.h"
+#include "gap/trial/write/seal.h"
 #include "tests/gap/trial/fake_simulator.h"
 
 namespace umbsim::trial_testing {

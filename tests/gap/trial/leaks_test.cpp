@@ -1,5 +1,6 @@
-#include "gap/trial/generate.h"
-#include "gap/trial/leaks.h"
+#include "gap/trial/score/leaks.h"
+
+#include "gap/trial/write/generate.h"
 #include "tests/gap/trial/fake_simulator.h"
 
 namespace umbsim::trial_testing {

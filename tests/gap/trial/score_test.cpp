@@ -1,8 +1,9 @@
+#include "gap/trial/score/score.h"
+
 #include <gmock/gmock.h>
 
 #include "core/error.h"
-#include "gap/trial/score.h"
-#include "gap/trial/seal.h"
+#include "gap/trial/write/seal.h"
 #include "tests/gap/trial/fake_simulator.h"
 
 namespace umbsim::trial_testing {
@@ -147,7 +148,7 @@ TEST(Score, SeverityCalibrationAndConfusion) {
   EXPECT_THAT(confusion_svg(c, "Trial"), HasSubstr("wheelbase"));
 }
 
-TEST(Score, OfAStrangersRecordings) {
+TEST(Score, OfForeignRecordings) {
   HandMade trial;  // answers in YAML, no cases.json, no seal, an effect that this catalogue does not know
   const Folder& folder = trial.folder;
   for (const char* name : {"kitchen", "garage"}) folder.write("recordings/" + std::string(name) + "/note", "data");

@@ -1,5 +1,6 @@
+#include "gap/trial/draw/severity.h"
+
 #include "core/error.h"
-#include "gap/trial/severity.h"
 #include "tests/gap/trial/fake_simulator.h"
 
 namespace umbsim::trial_testing {

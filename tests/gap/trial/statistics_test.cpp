@@ -1,10 +1,11 @@
+#include "gap/trial/score/statistics.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
 #include "core/random.h"
-#include "gap/trial/statistics.h"
 
 namespace umbsim::trial_testing {
 namespace {

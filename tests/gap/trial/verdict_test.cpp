@@ -1,9 +1,10 @@
+#include "gap/trial/score/verdict.h"
+
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "core/error.h"
-#include "gap/trial/verdict.h"
 #include "tests/gap/trial/fake_simulator.h"
 
 namespace umbsim::trial_testing {

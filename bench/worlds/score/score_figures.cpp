@@ -1,0 +1,135 @@
+#include <algorithm>
+#include <cmath>
+
+#include "bench/worlds/score/score.h"
+
+namespace umbsim::worlds {
+namespace {
+
+constexpr double kKnownRejected = 0.05;
+constexpr double kWorthNaming = 0.5;  // noise floors
+constexpr double kClosed = 0.7;
+
+using Cases = std::vector<const WorldVerdict*>;
+
+template <class Among, class Hit>
+Figure share_of(const Cases& cases, const char* key, Among among, Hit hit) {
+  int n = 0, k = 0;
+  for (const WorldVerdict* v : cases) {
+    if (!among(*v)) continue;
+    ++n;
+    k += hit(*v);
+  }
+  Figure f;
+  f.key = key;
+  f.unit = "share";
+  f.estimate = share(k, n);
+  f.hits = k;
+  f.cases = n;
+  return f;
+}
+
+struct Leanings {
+  std::vector<double> unknown;  // of effects that the diagnosis cannot know
+  std::vector<double> known;
+};
+
+Leanings leanings(const Cases& cases) {
+  Leanings l;
+  for (const WorldVerdict* v : cases) {
+    if (!v->visible() || v->verdict.failed) continue;
+    if (v->kind == "outside" || v->kind == "excluded") l.unknown.push_back(v->unknown);
+    if (v->kind == "single") l.known.push_back(v->unknown);
+  }
+  std::sort(l.known.begin(), l.known.end(), std::greater<>());
+  return l;
+}
+
+// Called unknown from the lowest threshold on at which no more than a twentieth of the known ones are.
+Figure recall(const Leanings& l) {
+  const std::size_t allowed = std::size_t(std::floor(kKnownRejected * double(l.known.size())));
+  const double threshold = l.known.empty() ? 0 : l.known[std::min(allowed, l.known.size() - 1)];
+  int k = 0;
+  for (const double u : l.unknown) k += u > threshold;
+  Figure f;
+  f.key = "unknown_recall";
+  f.unit = "share";
+  f.cases = l.known.empty() ? 0 : int(l.unknown.size());
+  f.hits = f.cases ? k : 0;
+  f.estimate = share(f.hits, f.cases);
+  return f;
+}
+
+// Probability that an unknown effect leans more to "unknown" than a known one; interval after Hanley & McNeil 1982.
+Figure area(const Leanings& l) {
+  Figure f;
+  f.key = "unknown_area";
+  f.unit = "ratio";
+  const double n = double(l.unknown.size()), m = double(l.known.size());
+  f.cases = int(std::min(n, m));
+  if (f.cases == 0) return f;
+  double sum = 0;
+  for (const double u : l.unknown)
+    for (const double k : l.known) sum += u > k ? 1 : (u == k ? 0.5 : 0);
+  const double a = sum / (n * m), q1 = a / (2 - a), q2 = 2 * a * a / (1 + a);
+  const double variance = (a * (1 - a) + (n - 1) * (q1 - a * a) + (m - 1) * (q2 - a * a)) / (n * m);
+  const double half = 1.96 * std::sqrt(std::max(0.0, variance));
+  f.estimate = {a, std::max(0.0, a - half), std::min(1.0, a + half)};
+  return f;
+}
+
+Figure wall_time(const Cases& cases) {
+  Figure f;
+  f.key = "wall_s";
+  f.unit = "s";
+  std::vector<double> times;
+  for (const WorldVerdict* v : cases) times.push_back(v->verdict.wall_s);
+  f.cases = int(times.size());
+  if (f.cases) f.estimate = median(times);
+  return f;
+}
+
+}  // namespace
+
+bool WorldVerdict::all_named() const {
+  const EffectNames named = split(verdict.named);
+  return std::all_of(verdict.answer.effects.begin(), verdict.answer.effects.end(),
+                     [&](const auto& e) { return named.count(e.first) > 0; });
+}
+
+bool WorldVerdict::names_more() const {
+  return std::any_of(not_there.begin(), not_there.end(), [](double worth) { return worth > kWorthNaming; });
+}
+
+WorldFigures world_figures(const Cases& cases) {
+  WorldFigures f;
+  f.cases = int(cases.size());
+  for (const WorldVerdict* v : cases) {
+    f.undetectable += !v->visible();
+    f.failed += v->verdict.failed;
+  }
+  const auto shows = [](const WorldVerdict& v) { return v.known() && v.visible(); };
+  f.false_alarm = share_of(
+      cases, "false_alarm", [](const WorldVerdict& v) { return v.kind == "none"; },
+      [](const WorldVerdict& v) { return v.verdict.detected; });
+  f.quiet_alarm = share_of(
+      cases, "quiet_alarm", [](const WorldVerdict& v) { return v.kind == "none" && v.of_the_world < kWorthNaming; },
+      [](const WorldVerdict& v) { return v.verdict.detected; });
+  f.right = share_of(
+      cases, "right", [](const WorldVerdict& v) { return v.kind == "single" && v.visible(); },
+      [](const WorldVerdict& v) { return v.verdict.right; });
+  f.named = share_of(cases, "named", shows, [](const WorldVerdict& v) { return v.all_named(); });
+  f.not_there = share_of(
+      cases, "not_there", [](const WorldVerdict& v) { return !v.verdict.failed; },
+      [](const WorldVerdict& v) { return v.names_more(); });
+  f.closed = share_of(
+      cases, "closed", [&](const WorldVerdict& v) { return shows(v) && v.verdict.diagnosis.closure.has_value(); },
+      [](const WorldVerdict& v) { return *v.verdict.diagnosis.closure >= kClosed; });
+  const Leanings l = leanings(cases);
+  f.unknown_recall = recall(l);
+  f.unknown_area = area(l);
+  f.wall_s = wall_time(cases);
+  return f;
+}
+
+}  // namespace umbsim::worlds

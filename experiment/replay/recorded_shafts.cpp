@@ -1,0 +1,239 @@
+#include "experiment/replay/recorded_shafts.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "recording/coarse_counts.h"
+#include "recording/encoder_clock.h"
+
+namespace umbsim {
+namespace {
+
+// Angles of a shaft that the counts stand for, in radians, smoothed over neighbours so that the counts' staircase does
+// not shake the robot. Binomial weights: no drift, and straight ramps stay as they are.
+constexpr std::size_t kDriftHalf = 5;  // samples
+
+std::vector<double> smoothed(std::vector<double> angle) {
+  const std::size_t n = angle.size();
+  for (int pass = 0; pass < 2; ++pass) {
+    std::vector<double> next = angle;
+    for (std::size_t i = 1; i + 1 < n; ++i) next[i] = (angle[i - 1] + 2 * angle[i] + angle[i + 1]) / 4;
+    angle = std::move(next);
+  }
+  return angle;
+}
+
+// Counts that were latched only every so often stand still in between: the moments of change are joined by lines. Where
+// nothing changes for longer the wheel stands, until one interval before the next change.
+void join_latches(std::vector<double>& counts, const std::vector<EncoderSample>& samples, double interval_s) {
+  if (interval_s <= 0) return;
+  std::size_t from = 0;
+  const std::vector<double> latched = counts;
+  for (std::size_t i = 1; i < counts.size(); ++i) {
+    if (latched[i] == latched[i - 1]) continue;
+    while (from + 1 < i && samples[i].time_s - samples[from + 1].time_s > interval_s - 1e-9) ++from;
+    for (std::size_t j = from + 1; j < i; ++j) {
+      counts[j] = latched[from] + (latched[i] - latched[from]) * double(j - from) / double(i - from);
+    }
+    from = i;
+  }
+}
+
+// Rotation that wheel speeds make up to each sample. Set-points ramp from one to the next; a time step moves with the
+// speed at its end, so that with `steps` a period the ramp is a staircase that runs ahead by half a step.
+std::vector<double> commanded(const std::vector<EncoderSample>& s, const std::vector<double>& late, int steps) {
+  const double before = (steps - 1) / (2.0 * steps);
+  std::vector<double> angle(s.size());
+  for (std::size_t i = 1; i < s.size(); ++i) {
+    angle[i] = angle[i - 1] + (before * late[i - 1] + (1 - before) * late[i]) * (s[i].time_s - s[i - 1].time_s);
+  }
+  return angle;
+}
+
+// The same speeds half a time step later, so that the staircase turns the shaft as far as it did.
+std::vector<double> half_a_step_later(const std::vector<double>& speed, int steps) {
+  std::vector<double> later = speed;
+  for (std::size_t i = 1; i < speed.size(); ++i) later[i] += (speed[i - 1] - speed[i]) / (2.0 * steps);
+  return later;
+}
+
+// A wheel's speed at the samples if it follows the commands, which ramp from one to the next, with a first-order lag.
+std::vector<double> obeyed(const std::vector<EncoderSample>& s, double EncoderSample::*command, double lag_s) {
+  std::vector<double> speed(s.size());
+  speed[0] = s[0].*command;
+  for (std::size_t i = 1; i < s.size(); ++i) {
+    const double dt = s[i].time_s - s[i - 1].time_s;
+    const double behind = (s[i].*command - s[i - 1].*command) / dt * lag_s;
+    const double fading = lag_s > 0 ? std::exp(-dt / lag_s) : 0;
+    speed[i] = s[i].*command - behind + (speed[i - 1] - s[i - 1].*command + behind) * fading;
+  }
+  return speed;
+}
+
+// Mean over neighbours within half a window, fewer at the ends.
+std::vector<double> averaged(const std::vector<double>& x, std::size_t half) {
+  std::vector<double> sum(x.size() + 1);
+  for (std::size_t i = 0; i < x.size(); ++i) sum[i + 1] = sum[i] + x[i];
+  std::vector<double> mean(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const std::size_t h = std::min({half, i, x.size() - 1 - i});
+    mean[i] = (sum[i + h + 1] - sum[i - h]) / double(2 * h + 1);
+  }
+  return mean;
+}
+
+// Speeds at the samples whose ramps in between turn the shaft as far as it did.
+std::vector<double> speeds(const std::vector<double>& angle, const std::vector<EncoderSample>& s) {
+  std::vector<double> speed(angle.size());
+  for (std::size_t i = 1; i + 1 < angle.size(); ++i) {
+    speed[i] = (angle[i + 1] - angle[i - 1]) / (s[i + 1].time_s - s[i - 1].time_s);
+  }
+  return speed;
+}
+
+// Least squares of how much further a shaft turns than commanded, per commanded angle.
+double gain_of(const std::vector<double>& ahead, const std::vector<double>& turned) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (std::size_t i = 0; i < ahead.size(); ++i) {
+    n += 1;
+    x += turned[i];
+    y += ahead[i];
+    xx += turned[i] * turned[i];
+    xy += turned[i] * ahead[i];
+  }
+  const double spread = n * xx - x * x;
+  return spread > 0 ? (n * xy - x * y) / spread : 0;
+}
+
+struct Bounds {
+  double low = 0;
+  double high = 0;
+};
+
+// Bounds of a slow drift that is within `half` of every `ahead`, from the samples up to each.
+std::vector<Bounds> bounded(const std::vector<double>& ahead, const std::vector<double>& drift, double half) {
+  std::vector<Bounds> bounds;
+  Bounds b{ahead.front() - half, ahead.front() + half};
+  for (std::size_t i = 0; i < ahead.size(); ++i) {
+    b.low = std::min(std::max(b.low - drift[i], ahead[i] - half), ahead[i] + half);
+    b.high = std::max(std::min(b.high + drift[i], ahead[i] + half), ahead[i] - half);
+    bounds.push_back(b);
+  }
+  return bounds;
+}
+
+// How far a shaft is ahead of its commands, where counts say so in steps of twice `half` only. The moments of the steps
+// tell more than the counts in between: at rest a count may be half a step off for long.
+std::vector<double> between_steps(std::vector<double> ahead, const std::vector<double>& turned, double half) {
+  constexpr double kDrift = 1e-3;  // of commanded rotation, beyond a constant gain
+  const double gain = gain_of(ahead, turned);
+  std::vector<double> drift(ahead.size());
+  for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] -= gain * turned[i];
+  for (std::size_t i = 1; i < ahead.size(); ++i) drift[i] = kDrift * std::abs(turned[i] - turned[i - 1]);
+  const std::vector<Bounds> past = bounded(ahead, drift, half);
+  std::vector<double> reversed(ahead.rbegin(), ahead.rend());
+  std::vector<double> reversed_drift(ahead.size());
+  for (std::size_t i = 1; i < drift.size(); ++i) reversed_drift[i] = drift[drift.size() - i];
+  const std::vector<Bounds> future = bounded(reversed, reversed_drift, half);
+  for (std::size_t i = 0; i < ahead.size(); ++i) {
+    const Bounds& f = future[ahead.size() - 1 - i];
+    ahead[i] = (std::max(past[i].low, f.low) + std::min(past[i].high, f.high)) / 2 + gain * turned[i];
+  }
+  return ahead;
+}
+
+}  // namespace
+
+double measured_lag(const RecordedRun& run, double radians_per_tick, int steps) {
+  if (!run.has_commands) return 0;
+  double lag = 0;
+  for (int w = 0; w < 2; ++w) {
+    const auto command = w == 0 ? &EncoderSample::left_command_radps : &EncoderSample::right_command_radps;
+    const auto ticks = w == 0 ? &EncoderSample::left_ticks : &EncoderSample::right_ticks;
+    const std::vector<double> asked = commanded(run.encoders, obeyed(run.encoders, command, 0), steps);
+    Eigen::Matrix4d A = Eigen::Matrix4d::Identity() * 1e-12;
+    Eigen::Vector4d b = Eigen::Vector4d::Zero();
+    double way = 0;
+    for (std::size_t i = 1; i < run.encoders.size(); ++i) {
+      const EncoderSample& s = run.encoders[i];
+      way += std::abs(asked[i] - asked[i - 1]);
+      const Eigen::Vector4d x(s.*command, asked[i], way, 1);
+      A += x * x.transpose();
+      b += x * (asked[i] - radians_per_tick * double(s.*ticks - run.encoders.front().*ticks));
+    }
+    lag += 0.5 * A.ldlt().solve(b)[0];
+  }
+  return lag;
+}
+
+std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec, const EncoderFaults& faults,
+                          bool left, double lag_s, int steps, double count_step) {
+  const auto ticks = left ? &EncoderSample::left_ticks : &EncoderSample::right_ticks;
+  const std::vector<EncoderSample>& s = run.encoders;
+  const double k = 2 * M_PI / spec.ticks_per_revolution;
+  std::vector<double> counts(s.size());
+  for (std::size_t i = 0; i < s.size(); ++i) counts[i] = double(s[i].*ticks);
+  if (count_step > 1) {
+    counts = steps_counted(s, ticks, count_step);
+    for (double& c : counts) c *= count_step;
+  }
+  join_latches(counts, s, spec.sampling_interval_s);
+  std::vector<double> angle(s.size());
+  for (std::size_t i = 1; i < s.size(); ++i) {
+    const double counted = k * (counts[i] - counts[i - 1]);
+    const double speed = std::abs(counted) / (s[i].time_s - s[i - 1].time_s);
+    const double missed = std::min(0.9, faults.missed_probability + faults.missed_probability_per_radps * speed);
+    angle[i] = angle[i - 1] + counted / (1 - missed);
+  }
+  if (spec.latency_s > 0) {
+    const std::vector<double> late = angle;
+    EncoderClock clock(s);
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      const auto m = clock.at(s[i].time_s + spec.latency_s);
+      angle[i] = m.between(late[m.before], late[m.before + 1]);
+    }
+    // At the start nothing had turned yet: what is missing there is not known.
+    const double offset = angle.front();
+    for (double& a : angle) a -= offset;
+  }
+  if (!run.has_commands) return half_a_step_later(speeds(smoothed(std::move(angle)), s), steps);
+  // The commands say finely what the counts say coarsely: the motor follows them, and drifts from them slowly.
+  const auto command = left ? &EncoderSample::left_command_radps : &EncoderSample::right_command_radps;
+  const double late_s = std::max(0.0, lag_s - spec.latency_s - spec.sampling_interval_s / 2);
+  const std::vector<double> asked = obeyed(s, command, late_s);
+  const std::vector<double> turned = commanded(s, asked, steps);
+  for (std::size_t i = 0; i < s.size(); ++i) angle[i] -= turned[i];
+  if (count_step > 1) angle = between_steps(std::move(angle), turned, k * count_step / 2);
+  std::vector<double> speed = half_a_step_later(speeds(averaged(averaged(angle, kDriftHalf), kDriftHalf), s), steps);
+  for (std::size_t i = 0; i < s.size(); ++i) speed[i] += asked[i];
+  return speed;
+}
+
+std::vector<std::array<double, 2>> arrived(const std::vector<std::array<double, 2>>& shaft,
+                                           const std::vector<EncoderSample>& s, const EncoderSpec& spec,
+                                           double step_rad) {
+  std::vector<std::array<double, 2>> counted = shaft;
+  for (std::size_t w = 0; w < 2; ++w) {
+    const EncoderFaults& faults = w == 0 ? spec.left : spec.right;
+    for (std::size_t i = 1; i < s.size(); ++i) {
+      const double turned = shaft[i][w] - shaft[i - 1][w];
+      const double speed = std::abs(turned) / (s[i].time_s - s[i - 1].time_s);
+      const double missed = std::min(0.9, faults.missed_probability + faults.missed_probability_per_radps * speed);
+      counted[i][w] = counted[i - 1][w] + turned * (1 - missed);
+    }
+    if (step_rad == 0) continue;
+    for (std::array<double, 2>& angle : counted) angle[w] = std::round(angle[w] / step_rad) * step_rad;
+  }
+  const double late_s = spec.latency_s + spec.sampling_interval_s / 2;
+  if (late_s == 0) return counted;
+  std::vector<std::array<double, 2>> result = counted;
+  EncoderClock clock(s);
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const auto m = clock.at(s[i].time_s - late_s);
+    for (std::size_t w = 0; w < 2; ++w) result[i][w] = m.between(counted[m.before][w], counted[m.before + 1][w]);
+  }
+  return result;
+}
+
+}  // namespace umbsim

@@ -1,0 +1,238 @@
+#include "gap/hypotheses/hypothesis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "gap/hypotheses/parametrisations.h"
+
+namespace umbsim::gap {
+namespace {
+
+constexpr double kFree = 1e9;
+// Log of how much wider a wheelbase's prior is than a contact's width, which only takes from turns: of two that do
+// nearly the same that must not decide.
+constexpr double kNarrowContact = 2;
+
+FreeParameter signed_one(const char* name, double step, double prior_sd) {
+  return {name, 0, step, prior_sd, -kFree, kFree};
+}
+
+FreeParameter positive(const char* name, double step, double prior_sd) { return {name, 0, step, prior_sd, 0, kFree}; }
+
+Hypothesis costing(double cost, Hypothesis hypothesis) {
+  hypothesis.variant_cost = cost;
+  return hypothesis;
+}
+
+Hypothesis from_start(Hypothesis hypothesis, double start) {
+  hypothesis.parameters.front().start = start;
+  hypothesis.from_zero = false;
+  return hypothesis;
+}
+
+}  // namespace
+
+bool shows_in_counts(const EffectInfo& info) {
+  return info.stage == Stage::drivetrain || info.stage == Stage::encoder || is_commanded_motion(info.name);
+}
+
+Eigen::VectorXd start_of(const Hypothesis& hypothesis) {
+  Eigen::VectorXd p(Eigen::Index(hypothesis.parameters.size()));
+  for (Eigen::Index i = 0; i < p.size(); ++i) p[i] = hypothesis.parameters[std::size_t(i)].start;
+  return p;
+}
+
+bool is_kinematic(const std::string& effect) {
+  static const std::set<std::string> effects{
+      "wheel_radius_scale", "wheel_radius_difference", "wheelbase",       "tyre_compliance", "wear",
+      "encoder_sampling",   "encoder_missed_counts",   "encoder_latency", "motor_response"};
+  return effects.count(effect) > 0;
+}
+
+bool is_dimension(const std::string& effect) {
+  return effect == "wheel_radius_scale" || effect == "wheel_radius_difference" || effect == "wheelbase";
+}
+
+bool is_commanded_motion(const std::string& effect) {
+  return effect == "over_acceleration" || effect == "fast_turning";
+}
+
+Effect effect_of(const Hypothesis& hypothesis, const Eigen::VectorXd& p) {
+  return {&find_effect(hypothesis.effect), hypothesis.values(p)};
+}
+
+std::vector<Effect> effects_of(const Hypothesis& hypothesis, const Eigen::VectorXd& p) {
+  std::vector<Effect> effects{effect_of(hypothesis, p)};
+  if (hypothesis.with) {
+    for (Effect& e : hypothesis.with(p)) effects.push_back(std::move(e));
+  }
+  return effects;
+}
+
+namespace {
+
+// Both wheels toed by the same angle against each other: the robot goes straight, and scrubs.
+Hypothesis toed_alike() {
+  const EffectInfo& info = find_effect("wheel_misalignment");
+  const EffectValues base = neutral_effect(info).values;
+  const std::size_t left = index_of(info, "left_toe_rad");
+  const std::size_t right = index_of(info, "right_toe_rad");
+  Hypothesis hypothesis{"wheel_misalignment", "alike", {{"toe_rad", 0.01, 2e-3, 0.008, -0.2, 0.2}}, {}, {}, false, 0};
+  hypothesis.values = [=](const Eigen::VectorXd& p) {
+    EffectValues values = base;
+    values.numbers[left] = p[0];
+    values.numbers[right] = -p[0];
+    return values;
+  };
+  return hypothesis;
+}
+
+// Both encoders lose the same share.
+Hypothesis both_miss() {
+  const EffectInfo& info = find_effect("encoder_missed_counts");
+  const EffectValues base = neutral_effect(info).values;
+  const std::size_t left = index_of(info, "left_probability");
+  const std::size_t right = index_of(info, "right_probability");
+  Hypothesis hypothesis{"encoder_missed_counts", "both", {{"probability", 0, 1e-3, 0.005, 0, 0.9}}, {}, {}, true, 0};
+  hypothesis.values = [=](const Eigen::VectorXd& p) {
+    EffectValues values = base;
+    values.numbers[left] = values.numbers[right] = p[0];
+    return values;
+  };
+  return hypothesis;
+}
+
+// A payload that nobody told of, by its moments about the axle's middle; the rest of its mass lies over that.
+Hypothesis load() {
+  const EffectInfo& info = find_effect("load_shift");
+  const EffectValues base = neutral_effect(info).values;
+  const std::size_t mass = index_of(info, "payload_kg");
+  const std::size_t ahead = index_of(info, "ahead_m");
+  const std::size_t left = index_of(info, "left_m");
+  Hypothesis hypothesis{"load_shift",
+                        "payload",
+                        {positive("payload_kg", 1, 5), signed_one("ahead_kgm", 0.2, 1), signed_one("left_kgm", 0.2, 1)},
+                        {},
+                        {},
+                        true,
+                        0};
+  constexpr double kArm_m = 0.15;
+  hypothesis.values = [=](const Eigen::VectorXd& p) {
+    EffectValues values = base;
+    const double m = p[0] + std::hypot(p[1], p[2]) / kArm_m;
+    values.numbers[mass] = m;
+    values.numbers[ahead] = m > 0 ? p[1] / m : 0;
+    values.numbers[left] = m > 0 ? p[2] / m : 0;
+    return values;
+  };
+  return hypothesis;
+}
+
+// A caster that drags beside the middle also turns the robot, and it carries another share of the load there.
+Hypothesis drag_beside_middle(const char* side, double left_m) {
+  Hypothesis hypothesis = from_start(
+      direct("caster_drag", side, {positive("coefficient", 0.02, 0.04), signed_one("left_m", 0.01, 0.05)}), 0.03);
+  hypothesis.parameters[1].start = left_m;
+  return hypothesis;
+}
+
+// Both wheels off their centres, each by its own two components.
+Hypothesis both_eccentric() {
+  const Hypothesis left = vector_hypothesis("wheel_eccentricity", "left_m", "left_phase_rad", 5e-4, 1e-3, 0.02);
+  const Hypothesis right = vector_hypothesis("wheel_eccentricity", "right_m", "right_phase_rad", 5e-4, 1e-3, 0.02);
+  Hypothesis both = left;
+  both.variant = "both";
+  both.parameters.insert(both.parameters.end(), right.parameters.begin(), right.parameters.end());
+  both.values = [left, right](const Eigen::VectorXd& p) {
+    EffectValues values = left.values(p.head(2));
+    const EffectValues other = right.values(p.tail(2));
+    for (std::size_t i = 0; i < values.numbers.size(); ++i) values.numbers[i] += other.numbers[i];
+    return values;
+  };
+  return both;
+}
+
+// Toed wheels scrub, and how that slows and turns the robot depends on how softly the tyres grip.
+Hypothesis on_soft_tyres(Hypothesis hypothesis) {
+  hypothesis.variant += ", soft tyres";
+  const Eigen::Index own = Eigen::Index(hypothesis.parameters.size());
+  // Shares of slip per traction ratio; their logarithms, for scrub depends on their order of magnitude.
+  constexpr double kAlong = 0.1;
+  constexpr double kAcross = 0.01;
+  hypothesis.parameters.push_back({"log tyre_creep.along", 0, 0.2, 1.5, -5, 1.6});
+  hypothesis.parameters.push_back({"log tyre_creep.across", 0, 0.2, 1.5, -5, 3.9});
+  hypothesis.from_zero = false;
+  hypothesis.parameters.front().start = hypothesis.parameters.front().step * 2;
+  hypothesis.with = [own](const Eigen::VectorXd& p) {
+    Effect creep = neutral_effect(find_effect("tyre_creep"));
+    creep.values.numbers = {kAlong * std::exp(p[own]), kAcross * std::exp(p[own + 1])};
+    return std::vector<Effect>{creep};
+  };
+  return hypothesis;
+}
+
+}  // namespace
+
+std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revolution, double wheel_width_m) {
+  std::vector<Hypothesis> all = {
+      logarithmic("over_acceleration", "factor", 1, 2, -3, 6),
+      logarithmic("fast_turning", "factor", 1, 1.5, -3, 4),
+      logarithmic("encoder_sampling", "interval_s", period_s, 1, 0, 4),
+      // Down to one tick a revolution.
+      logarithmic("encoder_resolution", "ticks_per_revolution", ticks_per_revolution, 2,
+                  -std::log(ticks_per_revolution), 0),
+      direct("wheel_radius_scale", "both", {signed_one("relative", 2e-4, 0.01)}),
+      direct("wheel_radius_difference", "right over left", {signed_one("relative", 2e-4, 0.004)}),
+      direct("wheelbase", "relative", {signed_one("relative", 5e-4, 0.015)}),
+      direct("wheel_misalignment", "right", {signed_one("right_toe_rad", 2e-3, 0.008)}),
+      direct("wheel_misalignment", "left", {signed_one("left_toe_rad", 2e-3, 0.008)}),
+      direct("wheel_misalignment", "both",
+             {signed_one("left_toe_rad", 2e-3, 0.008), signed_one("right_toe_rad", 2e-3, 0.008)}),
+      toed_alike(),
+      on_soft_tyres(direct("wheel_misalignment", "right", {signed_one("right_toe_rad", 2e-3, 0.008)})),
+      on_soft_tyres(direct("wheel_misalignment", "left", {signed_one("left_toe_rad", 2e-3, 0.008)})),
+      vector_hypothesis("wheel_eccentricity", "right_m", "right_phase_rad", 5e-4, 1e-3, 0.02),
+      vector_hypothesis("wheel_eccentricity", "left_m", "left_phase_rad", 5e-4, 1e-3, 0.02),
+      both_eccentric(),
+      direct("wear", "right", {signed_one("right_relative_per_run", 2e-5, 1e-3)}),
+      direct("wear", "left", {signed_one("left_relative_per_run", 2e-5, 1e-3)}),
+      direct("wear", "both",
+             {signed_one("left_relative_per_run", 2e-5, 1e-3), signed_one("right_relative_per_run", 2e-5, 1e-3)}),
+      direct("backlash", "both", {positive("left_rad", 0.01, 0.03), positive("right_rad", 0.01, 0.03)}),
+      direct("motor_response", "lag", {positive("lag_s", 0.05, 0.1)}),
+      direct("motor_response", "gain", {signed_one("gain_asymmetry", 0.01, 0.05)}),
+      direct("motor_response", "deadband", {positive("deadband_radps", 0.02, 0.05)}),
+      direct("encoder_missed_counts", "right", {positive("right_probability", 1e-3, 0.005)}),
+      direct("encoder_missed_counts", "left", {positive("left_probability", 1e-3, 0.005)}),
+      both_miss(),
+      direct("encoder_missed_counts", "left and right",
+             {positive("left_probability", 1e-3, 0.005), positive("right_probability", 1e-3, 0.005)}),
+      direct("encoder_missed_counts", "speed", {positive("probability_per_radps", 3e-4, 1e-3)}),
+      direct("encoder_latency", "delay", {positive("seconds", 0.02, 0.1)}),
+      load(),
+      direct("tyre_compliance", "both", {positive("metres_per_newton", 5e-7, 3e-6)}),
+      costing(kNarrowContact, squared("contact_patch", "width_m", 0.01, 0.03, wheel_width_m)),
+      direct("tyre_creep", "along and across", {{"along", 0, 5e-3, 0.02, 0, 0.1}, {"across", 0, 5e-3, 0.02, 0, 0.1}}),
+      from_start(direct("caster_swivel", "friction", {positive("friction_nm", 0.1, 0.5)}, {{"trail_m", 0.03}}), 0.3),
+      from_start(direct("caster_swivel", "friction of a light robot", {positive("friction_nm", 0.01, 0.05)},
+                        {{"trail_m", 0.03}}),
+                 0.03),
+      from_start(direct("caster_swivel", "askew", {{"initial_angle_rad", 0, 0.3, 2, -3.14, 3.14}},
+                        {{"trail_m", 0.03}, {"friction_nm", 0.1}}),
+                 1.5),
+      direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.04)}),
+      drag_beside_middle("left of it", 0.05),
+      drag_beside_middle("right of it", -0.05),
+      from_start(direct("slippery_floor", "friction", {{"friction", 0, 2e-4, 0.2, 0.01, 0.8}}), 0.06),
+      vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5),
+      vector_hypothesis("carpet_drift", "metres_per_metre", "direction_rad", 1e-3, 0.008, 0.5),
+  };
+  for (Hypothesis& f : all) {
+    const auto same = [&](const Hypothesis& g) { return g.effect == f.effect; };
+    f.variant_cost += std::log(double(std::count_if(all.begin(), all.end(), same)));
+  }
+  return all;
+}
+
+}  // namespace umbsim::gap

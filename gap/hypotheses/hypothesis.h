@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "effects/catalogue.h"
+
+namespace umbsim::gap {
+
+/// One free number of an effect, in coordinates in which it acts nearly linearly (an eccentricity's two components
+/// instead of its size and phase).
+struct FreeParameter {
+  std::string name;
+  double start = 0;     ///< where the fit begins
+  double step = 0;      ///< of the finite difference
+  double prior_sd = 0;  ///< about zero
+  double min = 0;
+  double max = 0;
+};
+
+/// An effect of the catalogue with the numbers that are fitted, the others fixed.
+struct Hypothesis {
+  std::string effect;
+  std::string variant;  ///< which numbers are free, where an effect has several hypotheses
+  std::vector<FreeParameter> parameters;
+  std::function<EffectValues(const Eigen::VectorXd& p)> values;
+  /// Further effects that go with it and are not credited: how softly the tyres grip while they scrub.
+  std::function<std::vector<Effect>(const Eigen::VectorXd& p)> with;
+  bool from_zero = true;  ///< acts in proportion near zero; false: fitted from its start, by repeated simulation
+  double search_cost = 0; ///< log of the number of places or moments that were looked at
+  double variant_cost = 0;  ///< log of the number of hypotheses of the same effect, which are all tried, or of a prior
+  bool shape_unknown = false;  ///< its numbers say how strong it is, not where: it is named, and added to no twin
+};
+
+/// The effect with everything that goes with it.
+std::vector<Effect> effects_of(const Hypothesis& hypothesis, const Eigen::VectorXd& p);
+
+Effect effect_of(const Hypothesis& hypothesis, const Eigen::VectorXd& p);
+
+/// Where the fit of its numbers begins.
+Eigen::VectorXd start_of(const Hypothesis& hypothesis);
+
+/// Whether counts against commands, or how the robot was driven and read, show the effect; others only move the robot.
+bool shows_in_counts(const EffectInfo& info);
+
+/// Whether the effect is one of the three dimensions that every calibration is about: mean radius, ratio of radii,
+/// wheelbase.
+bool is_dimension(const std::string& effect);
+
+/// Whether the effect is what was asked of the robot, beyond the course.
+bool is_commanded_motion(const std::string& effect);
+
+/// Whether the effect follows from rolling, counting and driving alone, without a contact that slips, scrubs or climbs:
+/// another engine's robot, or a real one, shows it as ours does.
+bool is_kinematic(const std::string& effect);
+
+/// Every hypothesis of the catalogue that needs no search for a place or moment.
+/// `period_s` and `ticks_per_revolution`: of the recording's encoders. `wheel_width_m`: no contact is wider; 0: not
+/// known.
+std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revolution, double wheel_width_m = 0);
+
+/// Hypotheses of local effects, at a place of the floor or a moment of one run.
+/// `heading_rad`: of the robot as it passes; the cable lies across.
+Hypothesis bump_hypothesis(double x_m, double y_m, double heading_rad);
+Hypothesis lift_hypothesis(double x_m, double y_m);
+Hypothesis patch_hypothesis(double x_m, double y_m);
+Hypothesis push_hypothesis(const std::string& run, int leg, double seconds_into_leg, double robot_kg);
+
+}  // namespace umbsim::gap

@@ -1,0 +1,46 @@
+#include "gap/trial/write/even_tables.h"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include "core/text_file.h"
+
+namespace umbsim {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The sign, up to 9999 units, nine decimals.
+constexpr auto kEncoderRow = FMT_COMPILE("{:015.9f},{:012d},{:012d},{:015.9f},{:015.9f}\n");
+constexpr auto kTruthRow = FMT_COMPILE("{:015.9f},{:015.9f},{:015.9f},{:015.9f}\n");
+
+std::string encoders_text(const RecordedRun& run) {
+  fmt::memory_buffer text;
+  text.append(std::string_view("time_s,left_ticks,right_ticks,left_command_radps,right_command_radps\n"));
+  for (const EncoderSample& e : run.encoders) {
+    fmt::format_to(fmt::appender(text), kEncoderRow, e.time_s, e.left_ticks, e.right_ticks, e.left_command_radps,
+                   e.right_command_radps);
+  }
+  return fmt::to_string(text);
+}
+
+std::string truth_text(const RecordedRun& run) {
+  fmt::memory_buffer text;
+  text.append(std::string_view("time_s,x_m,y_m,theta_rad\n"));
+  for (const TruthSample& t : run.truth) {
+    fmt::format_to(fmt::appender(text), kTruthRow, t.time_s, t.X_WB.x_m, t.X_WB.y_m, t.X_WB.theta_rad);
+  }
+  return fmt::to_string(text);
+}
+
+}  // namespace
+
+void write_even_tables(const Recording& recording, const fs::path& directory) {
+  for (const RecordedRun& run : recording.runs) {
+    const fs::path folder = directory / "runs" / run.id;
+    write_text_file(folder / "encoders.csv", encoders_text(run));
+    write_text_file(folder / "truth.csv", truth_text(run));
+  }
+}
+
+}  // namespace umbsim

@@ -1,0 +1,136 @@
+#include "recording/command_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace umbsim {
+namespace {
+
+double median(std::vector<double> x) {
+  if (x.empty()) return 0;
+  std::nth_element(x.begin(), x.begin() + std::ptrdiff_t(x.size() / 2), x.end());
+  return x[x.size() / 2];
+}
+
+// When a growing signal first reaches a level, between samples.
+double first_time(const std::vector<double>& t, const std::vector<double>& x, double level) {
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    if (x[i] >= level) {
+      const double part = x[i] > x[i - 1] ? std::clamp((level - x[i - 1]) / (x[i] - x[i - 1]), 0.0, 1.0) : 1;
+      return t[i - 1] + part * (t[i] - t[i - 1]);
+    }
+  }
+  return t.back();
+}
+
+// Plateau of one stretch's speed, and how fast it is reached between a fifth and four fifths of it.
+struct Ramp {
+  double speed = 0;
+  double acceleration = 0;
+};
+
+Ramp ramp(const RecordedRun& run, const Stretch& s, const RecordedRobot& robot) {
+  std::vector<double> t;
+  std::vector<double> v;
+  const double k = 2 * M_PI / robot.ticks_per_revolution;
+  const double turn = s.kind == Stretch::Kind::turn ? 1 : 0;
+  const std::size_t from = s.first > 5 ? s.first - 5 : 0;
+  for (std::size_t i = from + 1; i <= s.last; ++i) {
+    const EncoderSample& a = run.encoders[i - 1];
+    const EncoderSample& b = run.encoders[i];
+    const double dt = b.time_s - a.time_s;
+    const double left = run.has_commands ? b.left_command_radps : k * double(b.left_ticks - a.left_ticks) / dt;
+    const double right = run.has_commands ? b.right_command_radps : k * double(b.right_ticks - a.right_ticks) / dt;
+    const double speed = turn ? (right - left) / robot.wheelbase_m : (right + left) / 2;
+    t.push_back(b.time_s);
+    v.push_back(std::abs(speed) * robot.wheel_radius_m);
+  }
+  if (v.size() < 4) return {};
+  std::vector<double> sorted = v;
+  std::sort(sorted.begin(), sorted.end());
+  Ramp r;
+  r.speed = sorted[sorted.size() * 3 / 4];
+  const double dt = first_time(t, v, 0.8 * r.speed) - first_time(t, v, 0.2 * r.speed);
+  r.acceleration = dt > 1e-4 ? 0.6 * r.speed / dt : 0;
+  return r;
+}
+
+// Interval at which moving counters change, over the reading period; nothing where their steps are too wide to say.
+double sampling_ratio(const Recording& recording, const std::vector<std::vector<Stretch>>& stretches, double width) {
+  double moving = 0;
+  double changes = 0;
+  for (std::size_t r = 0; r < recording.runs.size(); ++r) {
+    const auto& e = recording.runs[r].encoders;
+    for (const Stretch& s : stretches[r]) {
+      if (s.kind == Stretch::Kind::still || s.last < s.first + 20) continue;
+      // Away from the ends, where a wheel may be slow.
+      const std::size_t a = s.first + (s.last - s.first) / 4;
+      const std::size_t b = s.last - (s.last - s.first) / 4;
+      const double per_period = std::abs(double(e[b].left_ticks - e[a].left_ticks)) / double(b - a);
+      if (per_period < 2 * width) continue;
+      double still = 0;
+      bool begun = false;  // with a change: how long counters stood still before the first one is not known
+      for (std::size_t i = a + 1; i <= b; ++i) {
+        const double step = std::abs(double(e[i].left_ticks - e[i - 1].left_ticks));
+        if (step == 0 && e[i].right_ticks == e[i - 1].right_ticks) {
+          still += 1;
+          continue;
+        }
+        // Counts that were held back arrive together; a robot that stood starts slowly.
+        if (begun) {
+          moving += step > 0.6 * (still + 1) * per_period ? still + 1 : 1;
+          changes += 1;
+        }
+        begun = true;
+        still = 0;
+      }
+    }
+  }
+  return changes > 20 ? moving / changes : 1;
+}
+
+}  // namespace
+
+CommandFeatures measured_command_features(const Recording& recording,
+                                          const std::vector<std::vector<Stretch>>& stretches, double count_step) {
+  CommandFeatures command_features{};
+  const RecordedPath& p = recording.path;
+  std::vector<double> linear;
+  std::vector<double> angular;
+  std::vector<double> turning;
+  for (std::size_t r = 0; r < recording.runs.size(); ++r) {
+    if (!recording.runs[r].has_commands) continue;
+    const bool in_place = recording.runs[r].turn.value_or(p.turn) == "in_place";
+    for (const Stretch& s : stretches[r]) {
+      if (s.kind == Stretch::Kind::still || s.end_s - s.start_s < 0.5) continue;
+      const Ramp x = ramp(recording.runs[r], s, recording.robot);
+      if (x.acceleration <= 0) continue;
+      if (s.kind == Stretch::Kind::leg) {
+        linear.push_back(x.acceleration);
+      } else if (in_place) {
+        angular.push_back(x.acceleration);
+        turning.push_back(x.speed);
+      }
+    }
+  }
+  const auto ratio = [](const std::vector<double>& measured, const std::optional<double>& declared) {
+    return measured.size() >= 3 && declared && *declared > 0 ? std::log(median(measured) / *declared) : 0;
+  };
+  if (p.shape == "square") {
+    command_features[0] = ratio(linear, p.linear_acceleration_mps2);
+    command_features[1] = ratio(angular, p.angular_acceleration_radps2);
+    command_features[2] = ratio(turning, p.angular_speed_radps);
+  }
+  command_features[3] = std::log(sampling_ratio(recording, stretches, count_step));
+  if (command_features[3] < 0.04)
+    command_features[3] = 0;  // counters that are read at every period stand still as good as never
+  command_features[4] = -std::log(count_step);
+  // What is hardly measured is as declared: ramps of one or two samples, a first or last step.
+  for (double& h : command_features) {
+    if (std::abs(h) < 0.02) h = 0;
+  }
+  return command_features;
+}
+
+}  // namespace umbsim

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gap/diagnose.h"
+#include "tests/gap/recordings.h"
+
+namespace umbsim::testing {
+
+/// A recording with what is needed to diagnose it, kept together: they refer to each other.
+struct Subject {
+  explicit Subject(Recording r, const std::vector<Effect>& believed = {})
+      : recording(std::move(r)),
+        replay(with_effects(scenario_of(recording, "."), believed), recording),
+        campaign(gap::campaign_of(recording)),
+        model(campaign, simulator(replay), gap::Scatter{}) {}
+  gap::Diagnosis diagnosed(const std::set<std::string>& excluded = {}) const {
+    return gap::diagnose(model, excluded, gap::Thresholds{}, [](const std::string&, double) {});
+  }
+
+  static Scenario with_effects(Scenario s, const std::vector<Effect>& effects) {
+    s.effects = effects;
+    return s;
+  }
+
+  Recording recording;
+  Replay replay;
+  gap::Campaign campaign;
+  gap::Model model;
+};
+
+}  // namespace umbsim::testing
