@@ -86,7 +86,7 @@ bool World::State::runs_on_balls() const {
 }
 
 bool World::State::is_on_plane(double step_s) const {
-  if (!on_balls || !grip.all_stick || !floor.ripples.empty() || !floor.patches.empty()) return false;
+  if (!on_balls || grip.slipped || !floor.ripples.empty() || !floor.patches.empty()) return false;
   if (floor.friction <= 0 || floor.drift_x != 0 || floor.drift_y != 0) return false;
   return floor.cables.empty() || !near_cable(kSpeculative_m + way_m(step_s, false), 0);
 }
@@ -201,6 +201,10 @@ void World::State::write_on_plane(const OnPlane& now) {
     impulses[at++] = now.across_ns[i];
   }
   report = {};
+  if (grip.all_stick) return;
+  grip = {};
+  grip.contacts = contacts;
+  grip.all_stick = true;
 }
 
 bool World::State::step_on_plane(double step_s, const std::array<double, 2>& target_radps) {

@@ -1,6 +1,7 @@
 // The rolling step on a plane (sim/plane.cpp) is the general step to round-off, and is left where it does not hold.
 #include <gtest/gtest.h>
 
+#include "sim/snapshot.h"
 #include "tests/sim/rolling_robot.h"
 
 namespace umbsim {
@@ -117,6 +118,28 @@ TEST(WorldPlane, IsLeftWhileThereIsAPush) {
   }
   EXPECT_NEAR(a.pose().x_m, b.pose().x_m, kSame);
   EXPECT_NEAR(a.pose().theta_rad, b.pose().theta_rad, kSame);
+}
+
+// To the bit, whatever the world that goes on did before: here it spins its wheels.
+TEST(WorldPlane, GoesOnFromASnapshot) {
+  Floor slippery;
+  slippery.friction = 0.3;
+  World a(labmate(), {20.0}, slippery, {}), b(labmate(), {20.0}, slippery, {});
+  a.place({});
+  trip(a, 3, 2, 1);
+  b.place({});
+  testing::drive(b, 60, 60, 0.5);
+  ASSERT_GT(b.strain(0).slid_s, 0.1);
+  const Snapshot then = a.snapshot();
+  b.resume(then, {});
+  for (World* w : {&a, &b}) {
+    testing::drive(*w, 5, 5, 0.1);  // slides
+    testing::drive(*w, 5, 5.5, 1);
+  }
+  ASSERT_GT(a.strain(0).slid_s, 0);
+  EXPECT_EQ(a.pose().x_m, b.pose().x_m);
+  EXPECT_EQ(a.pose().y_m, b.pose().y_m);
+  EXPECT_EQ(a.pose().theta_rad, b.pose().theta_rad);
 }
 
 }  // namespace
