@@ -7,21 +7,21 @@
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "cli/commands.h"
 #include "cli/exit.h"
-#include "cli/help.h"
+#include "cli/help/help.h"
+#include "cli/output/colour.h"
 #include "core/error.h"
-#include "core/printable.h"
 #include "experiment/output/build_info.h"
 
 namespace {
 
 using umbsim::kBadInput;
 using umbsim::kRunFailed;
-using umbsim::printable;
 
 // Every subcommand, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
@@ -62,22 +62,32 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", fmt::format("umbsim {} ({}, Bullet {})", info.version, info.commit, info.bullet));
   app.require_subcommand(1);
   for (const auto add : kCommands) add(app);
+  umbsim::group_options(app);
   const std::vector<std::string> words = umbsim::with_help_option(app, {argv + 1, argv + argc});
+  if (words.empty()) {
+    std::cout << umbsim::help_for_terminal(umbsim::start_text());
+    return 0;
+  }
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     return 0;
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    fmt::print(stderr, "umbsim: {}\n", printable(umbsim::usage_error(app, words, e)));
+    if (e.get_exit_code() == 0) {  // --help, --version
+      std::ostringstream text;
+      app.exit(e, text, text);
+      std::cout << umbsim::help_for_terminal(text.str());
+      return 0;
+    }
+    umbsim::print_error(umbsim::usage_error(app, words, e));
     return kBadInput;
   } catch (const umbsim::Exit& e) {
-    if (*e.what()) fmt::print(stderr, "umbsim: {}\n", printable(e.what()));
+    if (*e.what()) umbsim::print_error(e.what());
     return e.code;
   } catch (const umbsim::InputError& e) {
-    fmt::print(stderr, "umbsim: {}\n", printable(e.what()));
+    umbsim::print_error(e.what());
     return kBadInput;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "umbsim: the run failed: {}\n", printable(e.what()));
+    umbsim::print_error(std::string("the run failed: ") + e.what());
     return kRunFailed;
   }
 }

@@ -5,12 +5,7 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS umbsim_program RUNTIME COMPONENT program)
 install(DIRECTORY scenarios robots DESTINATION ${CMAKE_INSTALL_DATADIR}/umbsim COMPONENT program)
-install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
-foreach(name LICENSE)
-  if(EXISTS ${PROJECT_SOURCE_DIR}/${name})
-    install(FILES ${name} DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
-  endif()
-endforeach()
+install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
 # Completions and manual pages come from the program's own tables of options.
 set(shell_files ${PROJECT_BINARY_DIR}/shell)

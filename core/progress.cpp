@@ -1,11 +1,12 @@
 #include "core/progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+
+#include "core/terminal.h"
 
 namespace umbsim {
 namespace {
@@ -15,10 +16,7 @@ constexpr int kBar = 30;
 }  // namespace
 
 Progress::Progress(std::string what, int total)
-    : what_(std::move(what)),
-      total_(total),
-      terminal_(isatty(STDERR_FILENO) != 0),
-      start_(std::chrono::steady_clock::now()) {}
+    : what_(std::move(what)), total_(total), terminal_(shows_progress()), start_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
   if (drawn_) fmt::print(stderr, "\r\033[K");

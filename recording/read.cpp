@@ -7,6 +7,7 @@
 #include "core/yaml_reader.h"
 #include "recording/csv.h"
 #include "recording/names.h"
+#include "recording/read_waypoints.h"
 #include "recording/recording.h"
 
 namespace umbsim {
@@ -89,16 +90,6 @@ RecordedRobot read_robot(const fs::path& directory, const YamlValue& value) {
   return robot;
 }
 
-std::vector<Waypoint> read_waypoints(const YamlValue& value) {
-  std::vector<Waypoint> waypoints;
-  for (const YamlValue& item : value.list()) {
-    const std::vector<YamlValue> place = item.list();
-    if (place.size() != 2) item.fail("a waypoint is two numbers, [x, y]");
-    waypoints.push_back({place[0].number(kPlace), place[1].number(kPlace)});
-  }
-  return waypoints;
-}
-
 void read_shape(YamlMap& map, RecordedPath& path) {
   path.shape = map.at("shape").choice({"square", "circle", "figure_eight", "path", "free"});
   const auto side = map.find("side_m"), radius = map.find("radius_m"), waypoints = map.find("waypoints_m");
@@ -109,7 +100,7 @@ void read_shape(YamlMap& map, RecordedPath& path) {
   if (radius) path.radius_m = radius->number(kLength);
   if (waypoints && path.shape != "path")
     waypoints->fail(fmt::format("only a path has waypoints (shape is {})", path.shape));
-  if (waypoints) path.waypoints = read_waypoints(*waypoints);
+  if (waypoints) path.waypoints = read_waypoints(*waypoints, kPlace);
 }
 
 RecordedPath read_path(const YamlValue& value) {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "core/wrapped_text.h"
-#include "experiment/output/figures.h"
+#include "experiment/scenario/figure_names.h"
 
 namespace umbsim {
 namespace {

@@ -3,21 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "recording/read_waypoints.h"
+
 namespace umbsim {
 namespace {
 
 const Bounds kLength{0, 1000, true};
 const Bounds kPlace = Bounds::between(-1000, 1000);
-
-std::vector<Waypoint> read_waypoints(const YamlValue& value) {
-  std::vector<Waypoint> waypoints;
-  for (const YamlValue& item : value.list()) {
-    const std::vector<YamlValue> place = item.list();
-    if (place.size() != 2) item.fail("a waypoint is two numbers, [x, y]");
-    waypoints.push_back({place[0].number(kPlace), place[1].number(kPlace)});
-  }
-  return waypoints;
-}
 
 // A length that the shape does not have is a mistake, not a detail.
 void only_of(YamlMap& map, const char* key, const std::string& shape, const std::vector<std::string>& shapes) {
@@ -35,7 +27,7 @@ Course read_course(const YamlValue& value) {
   c.shape = map.choice("shape", c.shape, {"square", "circle", "figure_eight", "path"});
   c.side_m = map.number("side_m", c.side_m, kLength);
   c.radius_m = map.number("radius_m", c.radius_m, kLength);
-  if (const auto list = map.find("waypoints_m")) c.waypoints = read_waypoints(*list);
+  if (const auto list = map.find("waypoints_m")) c.waypoints = read_waypoints(*list, kPlace);
   only_of(map, "radius_m", c.shape, {"circle", "figure_eight"});
   only_of(map, "waypoints_m", c.shape, {"path"});
   c.turn = map.choice("turn", c.turn, {"in_place", "arc"});

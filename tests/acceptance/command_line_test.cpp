@@ -30,13 +30,13 @@ TEST(CommandLine, UnknownSubcommandListsTheKnown) {
   const Outcome outcome = Desk().umbsim({"calibrat"});
   EXPECT_EQ(outcome.code, kBadInput);
   EXPECT_EQ(outcome.out, "");
-  expect_says(outcome.err, {"unknown subcommand 'calibrat'", "did you mean 'calibrate'?", "run, import, calibrate, export, report, list, robot, effects"});
+  expect_says(outcome.err, {"unknown subcommand 'calibrat'", "did you mean 'calibrate'?",
+                            "run, import, calibrate, export, report, list, robot, effects"});
 }
 
 TEST(CommandLine, MistakesAreUsageErrors) {
   const Desk desk;
   const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes{
-      {{}, "subcommand"},
       {{"run", "--bogus"}, "--bogus"},
       {{"run", shipped("nominal"), "--jobs", "-1"}, "--jobs"},
       {{"run", shipped("nominal"), "--jobs", "many"}, "--jobs"},

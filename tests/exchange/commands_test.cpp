@@ -106,26 +106,7 @@ TEST(Packed, DamagedOnesAreNamed) {
 }
 
 // Of a simulated run: what was commanded comes back by way of the body's speeds.
-TEST(Commands, ComeBackFromMcap) {
-  const Desk desk;
-  desk.put("short.yaml", kShortScenario);
-  ASSERT_EQ(desk.umbsim({"run", "short.yaml", "--set", "calibration.method=none", "--out", "sim"}).code, 0);
-  ASSERT_EQ(desk.umbsim({"export", "sim", "--to", "mcap", "--out", "bag"}).code, 0);
-  const Outcome outcome = desk.umbsim({"import", "bag", "--robot", "sim/labmate.urdf", "--ticks-per-revolution", "2000",
-                                       "--runs", "bag/runs.csv", "--keep-frame", "--out", "back"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  for (const std::string run : {"cw-1", "ccw-2"}) {
-    const auto rows = numbers_of(desk.home / "sim/runs" / run / "encoders.csv");
-    const auto again = numbers_of(desk.home / "back/runs" / run / "encoders.csv");
-    ASSERT_EQ(rows.size(), again.size());
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      ASSERT_EQ(again[i].size(), 5u);
-      EXPECT_EQ(rows[i][1], again[i][1]);
-      EXPECT_NEAR(rows[i][3], again[i][3], 1e-7);
-      EXPECT_NEAR(rows[i][4], again[i][4], 1e-7);
-    }
-  }
-}
+TEST(Commands, ComeBackFromMcap) { expect_commands_come_back("mcap", "out"); }
 
 }  // namespace
 }  // namespace umbsim::acceptance
