@@ -10,12 +10,12 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr double kFirstStep = 0.4;  // of a number, where a search begins
+constexpr double kFirstStep = 0.4;       // of a number, where a search begins
 constexpr double kLeastStep = 1.0 / 16;  // of the first
-constexpr double kClosely = 0.25;  // of first steps, near the top
-constexpr double kOneHill = 2.1;   // first steps, within which a worse start is on the way to the same top
+constexpr double kClosely = 0.25;        // of first steps, near the top
+constexpr double kOneHill = 2.1;         // first steps, within which a worse start is on the way to the same top
 constexpr int kRoundsAgain = 4;
-constexpr double kReachAgain = 2;  // steps of each number, to which a place is looked for again
+constexpr double kReachAgain = 2;       // steps of each number, to which a place is looked for again
 constexpr int kMostTries = 200;         // simulations of the runs in the search for a place
 constexpr std::ptrdiff_t kBegunOn = 3;  // runs
 constexpr std::size_t kKeptOfFew = 3;   // starts for each local search, to be tried on all runs
