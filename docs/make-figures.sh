@@ -131,6 +131,9 @@ open(page, "w").write(head + begin + table + end + rest.split(end, 1)[1])
 print(table)
 PYTHON
 
-# The pictures, from the pages.
+# The pictures, from the pages. The diagnosis is of a recording that is not part of this project.
+"$umbsim" sweep scenarios/sweeps/recovery.yaml --out "$out/recovery" > /dev/null
+bump=../shared/recordings/second-engine/case-06
+[ ! -d "$bump" ] || "$umbsim" gap diagnose "$bump" --out "$out/case-06" > /dev/null
 node docs/make-pictures.mjs build/release/tests/web/tools "$out" docs/images
-ls -l docs/images/umbmark-report.png docs/images/replay.png
+ls -l docs/images/*.png

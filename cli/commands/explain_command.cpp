@@ -36,7 +36,9 @@ void explain_scenario(const ExplainArguments& a) {
     out->write([&](const std::filesystem::path& into) {
       const Json json = explanation_json(scenario, explanation);
       write_text_file(into / "explain.json", json.dump(2) + "\n");
-      write_page(into, PageKind::explanation, explanation_page(json, page_provenance_json(scenario.file, scenario.seed)));
+      Json page = explanation_page(json, page_provenance_json(scenario.file, scenario.seed));
+      page.update(explained_runs_json(scenario, explanation));
+      write_page(into, PageKind::explanation, page);
       write_scenario(scenario, into / "scenario.resolved.yaml");
       write_text_file(into / "provenance.json", provenance_json(scenario.file, scenario.seed).dump(2) + "\n");
     });

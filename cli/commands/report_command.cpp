@@ -10,8 +10,10 @@
 #include "cli/output/pages.h"
 #include "core/error.h"
 #include "core/text_file.h"
+#include "experiment/output/build_info.h"
 #include "experiment/output/recording_page.h"
 #include "experiment/output/result_folder.h"
+#include "report/score_page.h"
 
 namespace umbsim {
 namespace {
@@ -52,7 +54,8 @@ std::string subject_of(const fs::path& folder) {
 
 PageKind kind_of(const Json& data) {
   const std::pair<const char*, PageKind> kinds[] = {{"run", PageKind::run}, {"recording", PageKind::recording},
-                                                    {"sweep", PageKind::sweep}, {"gap", PageKind::gap}};
+                                                    {"sweep", PageKind::sweep}, {"gap", PageKind::gap},
+                                                    {"explanation", PageKind::explanation}};
   for (const auto& [name, kind] : kinds) {
     if (data["page"] == name) return kind;
   }
@@ -69,18 +72,32 @@ std::optional<Page> of_old_page(const fs::path& folder) {
   return Page{kind, std::move(*data)};
 }
 
+// The runs of an explanation, which its file does not hold.
+Json driven_of(const Json& page) {
+  Json json = Json::object();
+  for (const char* key : {"runs", "robot", "floor", "side_m", "wheelbase_m"}) {
+    if (page.contains(key)) json[key] = page[key];
+  }
+  return json;
+}
+
 Page page_of(const fs::path& folder) {
   const auto has = [&](const char* name) { return fs::exists(folder / name); };
   const Json provenance = provenance_of(folder);
   if (has("calibration.json"))
     return {PageKind::calibration, calibration_page(json_of(folder / "calibration.json"), subject_of(folder), provenance)};
-  if (has("explain.json")) return {PageKind::explanation, explanation_page(json_of(folder / "explain.json"), provenance)};
+  if (has("explain.json")) {
+    Page page{PageKind::explanation, explanation_page(json_of(folder / "explain.json"), provenance)};
+    if (const auto old = of_old_page(folder)) page.data.update(driven_of(old->data));
+    return page;
+  }
   if (has("plan.json")) return {PageKind::plan, plan_page(json_of(folder / "plan.json"), subject_of(folder), provenance)};
   if (has("prediction.json"))
     return {PageKind::prediction, prediction_page(json_of(folder / "prediction.json"), subject_of(folder), provenance)};
-  if (has("confusion.csv") && has("summary.json")) {
-    const Json score = json_of(folder / "summary.json");
-    return {PageKind::score, score_page(score, "Trial " + score.value("trial", ""), provenance)};
+  for (const char* score : {"worlds.json", "confusion.csv"}) {
+    if (!has(score)) continue;
+    const fs::path file = folder / (std::string(score) == "worlds.json" ? score : "summary.json");
+    return {PageKind::score, score_page(json_of(file), folder, build_info().version, provenance)};
   }
   if (auto old = of_old_page(folder)) return std::move(*old);
   if (has("recording.yaml"))

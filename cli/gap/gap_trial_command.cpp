@@ -11,12 +11,14 @@
 #include "core/text_file.h"
 #include "core/wrapped_text.h"
 #include "experiment/drive/planned_runs.h"
+#include "experiment/output/build_info.h"
 #include "experiment/output/result_json.h"
 #include "experiment/output/run_folder.h"
 #include "gap/noise/track_filter.h"
 #include "gap/trial/diagnose/diagnose_cases.h"
 #include "gap/trial/score/score.h"
 #include "gap/trial/write/generate.h"
+#include "report/score_page.h"
 
 namespace umbsim {
 namespace {
@@ -79,7 +81,8 @@ void write_score(const TrialScore& score, const fs::path& folder, const fs::path
   write_folder(folder, true, [&](const fs::path& into) {
     const Json json = score_json(score);
     write_text_file(into / "summary.json", json.dump(1) + "\n");
-    write_page(into, PageKind::score, score_page(json, "Trial " + score.trial, page_provenance_json(answers.string(), 0)));
+    write_page(into, PageKind::score, score_page(json, folder, build_info().version,
+                                                     page_provenance_json(answers.string(), 0)));
     write_text_file(into / "summary.md", score_markdown(score));
     write_text_file(into / "table.txt", score_table(score));
     write_text_file(into / "confusion.csv", confusion_csv(c));

@@ -70,10 +70,6 @@ Json prediction_page(const Json& json, const std::string& name, const Json& prov
   return page_of("Prediction of " + name, "prediction", json, provenance);
 }
 
-Json score_page(const Json& json, const std::string& title, const Json& provenance) {
-  return page_of(title, "score", json, provenance);
-}
-
 void add_open_option(CLI::App* command, bool& open) {
   command->add_flag("--open", open, "Open the page in the desktop's browser");
 }

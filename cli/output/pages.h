@@ -14,7 +14,6 @@ Json calibration_page(const Json& calibration, const std::string& name, const Js
 Json explanation_page(const Json& explanation, const Json& provenance);
 Json plan_page(const Json& plan, const std::string& name, const Json& provenance);
 Json prediction_page(const Json& prediction, const std::string& name, const Json& provenance);
-Json score_page(const Json& score, const std::string& title, const Json& provenance);
 
 /// --open
 void add_open_option(CLI::App* command, bool& open);

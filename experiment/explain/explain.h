@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/drive/run_digest.h"
 #include "experiment/scenario/scenario.h"
 
 namespace umbsim {
@@ -28,13 +29,22 @@ struct ExplainedEffect {
   Contributions missed;  ///< the whole scenario minus the scenario without this effect
 };
 
+/// The first run of a direction as it was driven with some of the effects, for the page.
+struct ExplainedRun {
+  std::string with;  ///< "all effects", "no effect", or "wheelbase alone"
+  std::string id;
+  std::string direction;
+  RunDigest digest;
+};
+
 /// Who causes how much of a scenario's return error.
 struct Explanation {
-  Contributions whole;      ///< the scenario as it is
-  Contributions baseline;   ///< without any of its effects: noise, encoders, the odometry's beliefs
+  Contributions whole;     ///< the scenario as it is
+  Contributions baseline;  ///< without any of its effects: noise, encoders, the odometry's beliefs
   std::vector<ExplainedEffect> effects;
   Contributions sum_alone;    ///< of all effects, each alone
   Contributions interaction;  ///< what is left: whole - baseline - sum_alone
+  std::vector<ExplainedRun> runs;
 };
 
 /// Drives the scenario's plain squares with all of its effects, without any, with each alone and with all but each.

@@ -1,4 +1,5 @@
 #include "experiment/output/result_json.h"
+#include "experiment/output/scene_json.h"
 
 namespace umbsim {
 namespace {
@@ -29,6 +30,20 @@ Json explanation_json(const Scenario& scenario, const Explanation& e) {
           {"effects", std::move(effects)},
           {"sum_alone", contributions_json(e.sum_alone)},
           {"interaction", contributions_json(e.interaction)}};
+}
+
+Json explained_runs_json(const Scenario& scenario, const Explanation& e) {
+  const RobotModel nominal = load_scenario_robot(scenario);
+  Json json{{"runs", Json::array()}, {"wheelbase_m", nominal.wheelbase_m()}};
+  if (scenario.course.shape == "square") json["side_m"] = scenario.course.side_m;
+  for (const ExplainedRun& run : e.runs) {
+    Json item{{"id", run.id}, {"direction", run.direction}, {"stage", run.with}};
+    add_digest(item, run.digest, nullptr);
+    json["runs"].push_back(std::move(item));
+  }
+  json["robot"] = robot_scene_json(scenario_urdf_text(scenario), scenario_urdf(scenario), nominal);
+  json["floor"] = floor_scene_json(rig_for(scenario, nominal, {}).floor);
+  return json;
 }
 
 }  // namespace umbsim

@@ -23,6 +23,8 @@ Json report_json(const ExperimentResult& result);
 
 /// explain.json (format umbsim-explanation/1).
 Json explanation_json(const Scenario& scenario, const Explanation& explanation);
+/// What the replay on its page shows: runs, robot, floor.
+Json explained_runs_json(const Scenario& scenario, const Explanation& explanation);
 
 /// provenance.json: version, commit, seed, compiler, Bullet version, host.
 /// `input`: the file or folder that was read.

@@ -78,6 +78,14 @@ export async function fits(page) {
   assert.ok(content <= screen, `the page is ${content} px wide on ${screen} px`);
 }
 
+/// No table is cut off: none needs to be scrolled.
+export async function tablesFit(page) {
+  for (const frame of await page.locator(".table-wrap:visible").all()) {
+    const [content, seen] = await frame.evaluate((e) => [e.scrollWidth, e.clientWidth]);
+    assert.ok(content <= seen + 1, `a table of ${content} px in ${seen} px: ${await frame.getAttribute("aria-label")}`);
+  }
+}
+
 export async function accessible(page) {
   await page.evaluate(`${axe}; true`);
   const violations = await page.evaluate(async () => (await window.axe.run(document, {

@@ -102,7 +102,7 @@ await run({
   async "tips come by pointer and by arrow keys, with units"() {
     const page = await again(file);
     const chart = page.locator("#scatter-all");
-    const tip = chart.locator("[aria-label=tip] tspan");
+    const tip = chart.locator(".tip tspan");
     await chart.locator(".end-point > *").first().hover({force: true});
     assert.ok((await tip.allTextContents()).join(" ").includes("mm"));
     await page.mouse.move(2, 2);

@@ -44,6 +44,15 @@ Json figures_json(const WorldFigures& f) {
   return json;
 }
 
+// The detection and the calibration curve of an engine's cases, or of all.
+Json curves_of(const WorldScore& score, const std::string& engine) {
+  std::vector<Verdict> verdicts;
+  for (const WorldVerdict& w : score.verdicts) {
+    if (engine.empty() || w.groups.at("engine") == engine) verdicts.push_back(w.verdict);
+  }
+  return curves_json(verdicts);
+}
+
 std::string row(const std::string& which, const WorldFigures& f) {
   std::string text = fmt::format("| {} | {} |", which, f.cases);
   for (const Column& c : kColumns) text += fmt::format(" {} |", cell(f.*c.figure));
@@ -61,9 +70,10 @@ std::string head(const std::string& by) {
 
 Json verdict_json(const WorldVerdict& w) {
   const Verdict& v = w.verdict;
-  Json json{{"kind", w.kind},     {"truth", v.truth},       {"named", v.named},
-            {"right", v.right},   {"unknown", w.unknown},   {"not_there_floors", w.not_there},
-            {"wall_s", v.wall_s}, {"engine_steps", w.steps}};
+  Json json{
+      {"kind", w.kind},         {"truth", v.truth},       {"named", v.named},     {"probability", v.probability},
+      {"detected", v.detected}, {"right", v.right},       {"unknown", w.unknown}, {"not_there_floors", w.not_there},
+      {"wall_s", v.wall_s},     {"engine_steps", w.steps}};
   if (const auto severity = v.answer.severity()) json["severity"] = *severity;
   json["undetectable_expected"] = v.answer.undetectable_expected;
   if (v.diagnosis.closure) json["closure"] = *v.diagnosis.closure;
@@ -78,9 +88,11 @@ Json score_json(const WorldScore& score) {
             {"answers_sha256", score.answers_sha256}, {"sealed", score.sealed},
             {"not_diagnosed", score.not_diagnosed},   {"worlds_redrawn", score.worlds_redrawn}};
   json["all"] = figures_json(score.all);
+  json["all"].update(curves_of(score, ""));
   for (const auto& [by, groups] : score.groups) {
     for (const auto& [which, f] : groups) json["by"][by][which] = figures_json(f);
   }
+  for (auto& [engine, figures] : json["by"]["engine"].items()) figures.update(curves_of(score, engine));
   const LeakFigure& l = score.leak;
   json["leak"] = {{"cases", l.cases}, {"accuracy", l.accuracy}, {"chance", l.chance}, {"p_value", l.p_value}};
   for (const WorldVerdict& w : score.verdicts) json["verdicts"][w.verdict.name] = verdict_json(w);
@@ -94,11 +106,11 @@ std::string score_markdown(const WorldScore& score) {
       "does not drive.\n",
       score.name, score.answers_sha256.substr(0, 12), score.sealed ? "sealed" : "not sealed", score.all.cases,
       score.not_diagnosed, score.all.failed, score.all.undetectable, score.worlds_redrawn);
-  text += "\n" + head("") + row("all", score.all);
+  text += fmt::format("\n{}{}", head(""), row("all", score.all));
   for (const char* by : {"engine", "runs", "tracker", "driver", "robot", "effect"}) {
     const auto groups = score.groups.find(by);
     if (groups == score.groups.end()) continue;
-    text += "\n" + head(by);
+    text += fmt::format("\n{}", head(by));
     for (const auto& [which, f] : groups->second) text += row(which, f);
   }
   const LeakFigure& l = score.leak;

@@ -29,6 +29,8 @@ struct TrialScore {
 TrialScore score_trial(const TrialFolder& folder, const std::filesystem::path& answers);
 
 Json score_json(const TrialScore& score);            ///< summary.json
+/// by_severity and calibration: the detection and the calibration curve.
+Json curves_json(const std::vector<Verdict>& verdicts);
 std::string confusion_csv(const Confusion& confusion);
 std::string confusion_svg(const Confusion& confusion, const std::string& title);
 std::string score_table(const TrialScore& score);    ///< for a terminal

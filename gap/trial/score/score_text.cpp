@@ -140,6 +140,23 @@ int row_total(const Confusion& c, const std::string& row) {
 
 }  // namespace
 
+Json curves_json(const std::vector<Verdict>& verdicts) {
+  Json json;
+  json["by_severity"] = Json::array();
+  for (const SeverityBin& bin : by_severity(verdicts)) {
+    Json entry{{"from", bin.from}, {"to", std::isinf(bin.to) ? Json() : Json(bin.to)}};
+    entry.update(tally_json(bin.tally));
+    json["by_severity"].push_back(entry);
+  }
+  json["calibration"] = Json::array();
+  for (const CalibrationBin& bin : calibration_curve(verdicts)) {
+    json["calibration"].push_back({{"from", bin.from}, {"to", bin.to}, {"cases", bin.cases},
+                                   {"mean_probability", bin.mean_probability},
+                                   {"right_share", estimate_json(share(bin.right, bin.cases))}});
+  }
+  return json;
+}
+
 Json score_json(const TrialScore& s) {
   Json json{{"format", "umbsim-trial-score/1"}, {"trial", s.trial}, {"cases", s.verdicts.size()},
             {"answers_sha256", s.answers_sha256}, {"sealed_before_diagnosis", s.sealed}};
@@ -147,18 +164,7 @@ Json score_json(const TrialScore& s) {
   for (const Baseline& b : s.baselines) json["baselines"][b.key] = baseline_json(b);
   for (const auto& [tier, tally] : by_tier(s.verdicts)) json["by_tier"][tier] = tally_json(tally);
   for (const auto& [effect, tally] : by_effect(s.verdicts)) json["by_effect"][effect] = tally_json(tally);
-  json["by_severity"] = Json::array();
-  for (const SeverityBin& bin : by_severity(s.verdicts)) {
-    Json entry{{"from", bin.from}, {"to", std::isinf(bin.to) ? Json() : Json(bin.to)}};
-    entry.update(tally_json(bin.tally));
-    json["by_severity"].push_back(entry);
-  }
-  json["calibration"] = Json::array();
-  for (const CalibrationBin& bin : calibration_curve(s.verdicts)) {
-    json["calibration"].push_back({{"from", bin.from}, {"to", bin.to}, {"cases", bin.cases},
-                                   {"mean_probability", bin.mean_probability},
-                                   {"right_share", estimate_json(share(bin.right, bin.cases))}});
-  }
+  json.update(curves_json(s.verdicts));
   json["leaks"]["shuffled_labels"] = leak_json(s.shuffled);
   if (s.metadata) json["leaks"]["metadata"] = leak_json(*s.metadata);
   json["verdicts"] = Json::array();

@@ -8,22 +8,20 @@ import type {Figures} from "../run/data";
 import {isNamed, namesOf, type GapData} from "./data";
 
 const titleOf = (cause: Figures): string => namesOf(cause).map(words).join(" + ");
+const plusses = (names: string): string => names.split("+").map(words).join(" + ");
 
-/// Each number by its effect, as on the terminal: the program writes the texts. What stayed neutral has none.
+/// Each number by its effect, as on the terminal: the program writes the texts, and what stayed neutral has none. Then what goes
+/// away with the effect on held-out runs, beside the others.
 const parameters = (cause: Figures): Html[] => namesOf(cause).flatMap((name) => {
   const texts = Object.values(cause.effects[name] as Figures).map((p) => (typeof p === "object" && p ? p.text : `in ${p}`)).filter(Boolean);
-  return texts.length ? [html`${words(name)}: ${texts.join(", ")}`] : [];
+  const own = namesOf(cause).length > 1 && cause.worth?.effects?.[name];
+  const all = [...texts.map((t) => t.replace(/(^|[ (])-(?=\d)/g, "$1\u2212")), ...(own ? [`worth ${worth(own)}`] : [])];
+  return all.length ? [html`${words(name)}: ${all.join(", ")}`] : [];
 });
 
-const percent = (p: number): string => `${p >= 0.9995 ? "100" : p >= 0.0995 ? fixed(100 * p, 0) : p >= 0.0005 ? fixed(100 * p, 1) : "<0.1"}\u00a0%`;
+const worth = (w: Figures): string => `${millimetres(w.position_mm)}, ${degrees(w.heading_deg)}`;
 
-/// What goes away with a cause on held-out runs, and with each of its effects beside the others.
-function worth(cause: Figures): Html[] {
-  if (!cause.worth) return [];
-  const text = (w: Figures) => `${millimetres(w.position_mm)}, ${degrees(w.heading_deg)}`;
-  const each = Object.entries<Figures>(cause.worth.effects ?? {}).map(([name, w]) => html`${words(name)}: ${text(w)}`);
-  return [html`takes away ${text(cause.worth)}`, ...each];
-}
+const percent = (p: number): string => `${p >= 0.9995 ? "100" : p >= 0.0995 ? fixed(100 * p, 0) : p >= 0.0005 ? fixed(100 * p, 1) : "<0.1"}\u00a0%`;
 
 function remainder({remainder: r}: Figures): Html {
   if (!r) return raw("");
@@ -36,8 +34,8 @@ export function which(d: Figures): Html {
   const set: string[] = d.set ?? [];
   const shown = (d.causes ?? []).filter((c: Figures, i: number) => i === 0 || c.probability >= 0.0005 || set.includes(namesOf(c).join("+"))).slice(0, 8);
   const rows = shown.map((c: Figures) => [titleOf(c), html`${bar(c.probability, set.includes(namesOf(c).join("+")) ? "tied" : "rest")}`, percent(c.probability),
-    join([...parameters(c), ...worth(c)], raw("<br>"))]);
-  const names = join(set.map((n) => html`<b>${words(n)}</b>`), raw(", "));
+    join([...parameters(c), c.worth && html`takes away ${worth(c.worth)}${namesOf(c).length > 1 && " in all"}`], raw("<br>"))]);
+  const names = join(set.map((n) => html`<b>${plusses(n)}</b>`), raw("; "));
   const alike = set.length > 1 ? html`These data do not tell apart: ${names}.` : html`Nothing else in the catalogue explains these data as well as ${names}.`;
   const rest = d.unexplained?.detected && d.unexplained.description ? html`<p class="notice">Left over: ${d.unexplained.description}.</p>` : "";
   const remarks = d.remarks?.length ? html`<p>Shows in the commands or counts, and moves no pose beyond the noise: ${join(d.remarks.map((n: string) => html`<b>${words(n)}</b>`), raw(", "))}.</p>` : "";
@@ -82,8 +80,7 @@ export function closure(d: Figures): Html {
 
 export function next(data: GapData): Html {
   const d = data.diagnosis;
-  const both = (names: string[]) => join(names.map((s) => html`${words(s)}`), raw(" and "));
-  const items = (d.next_experiment ?? []).map((n: Figures) => html`<li><b>${n.run}</b> separates ${both(n.separates ?? [])}</li>`);
+  const items = (d.next_experiment ?? []).map((n: Figures) => html`<li><b>${n.run}</b> separates ${(n.separates ?? []).map(words).join(", ")}</li>`);
   const ties = (d.indistinguishable ?? []).map((t: string[]) => html`<li>Alike in these runs: ${t.map(words).join(", ")}</li>`);
   const twin = d.causes?.some((c: Figures) => c.worth) || (d.gap.detected && d.causes?.length && isNamed(d.causes[0]));
   const limits = (d.limits ?? []).map((l: string) => html`<li>${l}</li>`);

@@ -1,7 +1,7 @@
 // Legs and turns as a strip, a row for each run, coloured by how much the scenario errs there.
 
 import * as Plot from "@observablehq/plot";
-import {Chart, tip} from "../lib/chart";
+import {Chart} from "../lib/chart";
 import {fixed, plural} from "../lib/format";
 import {fill, find, html} from "../lib/html";
 import type {Figures} from "../run/data";
@@ -21,16 +21,14 @@ export function setupStrip(data: GapData, place: HTMLElement): void {
       departs there from the scenario, beyond the noise.</figcaption></figure>`);
   const scale: Plot.ScaleOptions = {type: "sqrt", domain: [0, Math.max(...segments.map((s) => s.score))], scheme: "oranges", label: "score"};
   new Chart(find(place, "#gap-strip"), {
-    name: "legs-and-turns", zoom: "none", most: 1060,
-    draw: (width) => ({
-      label: `Score of ${plural(columns.length, "part")} of the course in ${plural(rows.length, "run")}`,
-      stops: [],
-      plot: {
-        width, height: 60 + 22 * rows.length, marginLeft: Math.min(140, 20 + 7 * Math.max(...rows.map((r) => r.length))), marginBottom: 54, marginTop: 8,
-        x: {domain: columns, label: null, tickRotate: columns.length * 46 > width ? -60 : 0}, y: {domain: rows, label: null}, color: scale,
-        marks: [Plot.cell(segments, {x: key, y: "run", fill: "score", inset: 0.5, tip,
-          title: (s) => `${s.run}, leg ${s.leg}, ${s.part}\nscore ${fixed(s.score, 1)}`, className: "segment"}), Plot.frame({stroke: "var(--line)"})],
-      },
-    })});
+    name: "legs-and-turns", zoom: "none", most: 1060, draw: (width) => {
+      const slanted = columns.length * 52 > width;
+      return {
+        label: `Score of ${plural(columns.length, "part")} of the course in ${plural(rows.length, "run")}`, grid: "none",
+        points: segments.map((s) => ({x: key(s), y: s.run, words: `${s.run}, leg ${s.leg}, ${s.part}\nscore ${fixed(s.score, 1)}`})),
+        height: 34 + 22 * rows.length + (slanted ? 28 : 0), x: {domain: columns, label: null, tickRotate: slanted ? -60 : 0}, y: {domain: rows, label: null},
+        plot: {marginLeft: Math.min(140, 20 + 7 * Math.max(...rows.map((r) => r.length))), marginBottom: slanted ? 54 : 26, marginTop: 8, color: scale},
+        marks: [Plot.cell(segments, {x: key, y: "run", fill: "score", inset: 0.5, className: "segment"}), Plot.frame({stroke: "var(--line)"})]};
+    }});
   find(place, "#gap-strip-scale").append(Plot.legend({color: scale, width: 260, style: {color: "var(--muted)"}} as Plot.LegendOptions));
 }

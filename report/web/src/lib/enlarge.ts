@@ -11,12 +11,14 @@ export function factorFor(size: number, error: number): number {
 }
 
 export const slider = (words: string, factor: number): Html => html`<label>${words} <input type="range" class="enlarge" min="0"
-  max="${FACTORS.length - 1}" step="1" value="${FACTORS.indexOf(factor)}" aria-label="${words}: enlargement"><output></output></label>`;
+  max="${FACTORS.length - 1}" step="1" value="${FACTORS.indexOf(factor)}" aria-label="${words}: enlargement"><output></output></label>
+  <span class="too-small muted"></span>`;
 
 export const factorAt = (input: HTMLInputElement): number => FACTORS[Number(input.value)];
 
 /// What stands beside the slider, and what a screen reader says of it.
-export function sayFactor(section: ParentNode, factor: number): void {
+export function sayFactor(section: ParentNode, factor: number, size: number, error: number): void {
   section.querySelector(".controls output")!.textContent = `\u00d7${factor}`;
+  section.querySelector(".controls .too-small")!.textContent = factor * error < size / 500 ? "too small to be seen" : "";
   section.querySelector("input.enlarge")!.setAttribute("aria-valuetext", `${factor} times`);
 }

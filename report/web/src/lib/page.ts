@@ -62,7 +62,7 @@ export async function build(page: Page): Promise<void> {
     <header>
       <h1>${page.title}</h1>
       ${page.headline?.text ? html`<p class="headline">${page.headline}</p>` : ""}
-      ${page.description && html`<p class="muted">${page.description}</p>`}
+      ${page.description && page.description !== page.title && html`<p class="muted">${page.description}</p>`}
       ${page.warnings?.length ? html`<ul class="notice warnings">${page.warnings.map((w) => html`<li>${w}</li>`)}</ul>` : ""}
       ${page.tiles?.length ? html`<dl class="tiles">${page.tiles.map(tile)}</dl>` : ""}
     </header>${body}
@@ -83,6 +83,11 @@ export const legend = (items: [Html, unknown][]): Html =>
 /// A line as the charts draw it: solid, dashed or dotted.
 export const lineIcon = (colour: string, dash = "", width = 2): Html => raw(`<svg width="30" height="12" aria-hidden="true">` +
     `<line x1="1" y1="6" x2="29" y2="6" style="stroke:${colour};stroke-width:${width};stroke-dasharray:${dash || "none"}"/></svg>`);
+
+/// A mark of a chart, by the class of its colours: a disc, or a path in a square of 18 px.
+export const icon = (css: string, path = "M9 5a4 4 0 1 0 0.01 0Z"): Html => raw(`<svg width="18" height="16" aria-hidden="true"><path class="${css}" d="${path}"/></svg>`);
+
+export const SPREAD = "M2 8a7 4 0 1 0 14 0a7 4 0 1 0 -14 0";  // an ellipse
 
 /// cw: circle, ccw: triangle, others: square. Hollow before, filled after calibration, pale with cables.
 export function markerIcon(direction: string, stage: string): Html {

@@ -19,7 +19,7 @@ export function svgText(svg: SVGSVGElement): string {
     const computed = getComputedStyle(element);
     for (const name of STYLES) (to[i] as SVGElement).style.setProperty(name, computed.getPropertyValue(name));
   });
-  copy.querySelectorAll("[aria-label=tip], .overlay, style").forEach((element) => element.remove());
+  copy.querySelectorAll(".tip, .overlay, style").forEach((element) => element.remove());
   const box = svg.viewBox.baseVal;
   const paper = document.createElementNS("http://www.w3.org/2000/svg", "rect");
   for (const [name, value] of Object.entries({width: box.width, height: box.height})) paper.setAttribute(name, String(value));

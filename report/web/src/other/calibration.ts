@@ -59,7 +59,7 @@ function charts(c: Figures): Section {
       <div class="panel"><p class="panel-title">E<sub>b</sub>, wheelbase over nominal</p><div id="methods-e_b"></div></div></div>
       <p class="panel-title">Mean final error of runs that were left out</p><div id="methods-held-out"></div>
       ${legend([[markerIcon("cw", "after"), "a method's value; the line is its 95 % interval"]])}
-      <figcaption>${c.held_out} The large mark is the method that is trusted.</figcaption></figure>`,
+      <figcaption>${c.held_out}. The large mark is the method that is trusted.</figcaption></figure>`,
     setup: (section) => {
       for (const key of ["e_d", "e_b"] as const) if (error(key).length) intervals(find(section, `#methods-${key}`), `methods-${key}`, key.replace("e", "E"), error(key), 1);
       if (held.length) intervals(find(section, "#methods-held-out"), "held-out", "held-out error (mm)", held);

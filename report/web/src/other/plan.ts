@@ -6,20 +6,21 @@ import {build, type Section} from "../lib/page";
 import {table} from "../lib/table";
 import type {Figures} from "../run/data";
 import {provenance} from "../run/tables";
-import {matrix} from "./bars";
+import {matrix, type Cell} from "./bars";
 
 const list = (names: unknown[]): string => names.map((n) => (Array.isArray(n) ? n.filter((v) => typeof v === "string").map(words).join(" and ") : words(n))).join("; ");
 
 function result(id: string, title: string, r: Figures): Section | null {
   if (!r) return null;
   const m = r.confusion;
-  const cells = m ? m.truth.flatMap((truth: string, i: number) => m.named.map((named: string, k: number) => ({row: words(truth), column: words(named), value: m.probability[i][k]}))
-      .filter((c: {value: number}) => c.value >= 0.005)
-      .map((c: {row: string; column: string; value: number}) => ({...c, text: fixed(100 * c.value, 0), words: `${c.row} would be named\n${c.column}\nin ${fixed(100 * c.value, 1)} % of cases`}))) : [];
+  const cells = m ? m.truth.flatMap((truth: string, i: number) => m.named.flatMap((named: string, k: number): Cell[] => {
+    const [value, row, column] = [m.probability[i][k], words(truth), words(named)];
+    return value < 0.005 ? [] : [{row, column, value, right: row === column, text: fixed(100 * value, 0), words: `${row}\nwould be named ${column}\nin ${fixed(100 * value, 1)} % of cases`}];
+  })) : [];
   const groups = (r.indistinguishable ?? []).map((g: string[]) => html`<li>${g.map(words).join(", ")}</li>`);
   return {
     id, title, content: html`<p>${r.separated_pairs} of ${r.pairs} pairs of effects are told apart.</p>${cells.length ? html`<figure><div id="${id}-matrix"></div>
-      <figcaption>A row for each effect that is there: what a diagnosis would name, in per cent of drawn cases.</figcaption></figure>` : ""}
+      <figcaption>A row for each effect that is there: what a diagnosis would name, in per cent of drawn cases. Framed cells are right.</figcaption></figure>` : ""}
       ${groups.length ? html`<p>Not told apart:</p><ul>${groups}</ul>` : ""}
       ${r.not_shown?.length ? html`<p>Hardly shows at all: ${list(r.not_shown)}.</p>` : ""}`,
     setup: (section) => {
@@ -28,10 +29,16 @@ function result(id: string, title: string, r: Figures): Section | null {
   };
 }
 
+/// Few pairs are named, many are counted and can be unfolded.
+function pairs(separates: unknown): Html {
+  if (!Array.isArray(separates) || separates.length <= 4) return html`${Array.isArray(separates) ? list(separates) : separates ?? ""}`;
+  return html`<details><summary>${plural(separates.length, "pair")}</summary>${list(separates)}</details>`;
+}
+
 function chosen(title: string, r: Figures): Html {
   if (!r?.runs?.length) return raw("");
-  return table({caption: `${title}: ${plural(r.runs.length, "run")}, ${fixed(r.duration_s / 60, 1)} min`, head: ["run", "shows", "separates"], text: [1, 2], stack: true,
-    rows: r.runs.map((x: Figures) => [x.run, list(x.shows ?? []), Array.isArray(x.separates) ? list(x.separates) : String(x.separates ?? "")])});
+  return table({caption: `${title}: ${plural(r.runs.length, "run")}, ${fixed(r.duration_s / 60, 1)} min`, head: ["run", "shows, beyond the runs above", "tells apart, beyond them"], text: [1, 2], stack: true, keepEmpty: true,
+    rows: r.runs.map((x: Figures) => [x.run, list(x.shows ?? []), pairs(x.separates)])});
 }
 
 export function showPlan(data: Figures): Promise<void> {

@@ -1,7 +1,7 @@
 // The extended test: heading error against distance, each cable marked where the wheel met it.
 
 import * as Plot from "@observablehq/plot";
-import {Chart, grid, sized, tip, type Drawing, type View} from "../lib/chart";
+import {Chart, type Drawing} from "../lib/chart";
 import {colour, deg, degUnit, fixed, isNumber} from "../lib/format";
 import {find, html, type Html, raw} from "../lib/html";
 import {legend, lineIcon, type Section} from "../lib/page";
@@ -44,29 +44,21 @@ export function extendedSection(data: RunData): Section | null {
   return {
     id: "extended", title: "Extended UMBmark", content: html`${chart}${figures(data)}`,
     setup: (section) => {
-      if (bumped.length) new Chart(find(section, "#extended-chart"), {name: "extended-heading", most: 980, draw: (w, v) => drawing(data, bumped, plain, w, v)});
+      if (bumped.length) new Chart(find(section, "#extended-chart"), {name: "extended-heading", most: 980, draw: (width) => drawing(data, bumped, plain, width)});
     },
   };
 }
 
-function drawing(data: RunData, bumped: Tracked[], plain: Tracked[], width: number, view: View): Drawing {
+function drawing(data: RunData, bumped: Tracked[], plain: Tracked[], width: number): Drawing {
   const cables = bumped.flatMap((run) => crossings(data, run));
   const curve = (run: Tracked, stroke: string, strokeWidth: number) => Plot.line(errorSeries(run), {
-    x: "distance", y: "heading", stroke, strokeWidth, clip: true, strokeDasharray: run.direction === "ccw" ? "7 3" : undefined, className: "series"});
-  const words = (c: Crossing) => `cable ${c.number}, ${c.run.id}\n${fixed(c.height_m * 1000, 1)} mm high\n` +
-      `${fixed(c.sample.distance, 2)} m driven\nheading error ${fixed(c.sample.heading, 3)}°`;
-  const e = data.summary.extended ?? {};
+    x: "distance", y: "heading", stroke, strokeWidth, strokeDasharray: run.direction === "ccw" ? "7 3" : undefined, className: "series"});
   return {
-    label: `Heading error over distance of ${bumped.length} runs with cables; per cable ${degUnit(e.per_bump_heading_error_rad)}`,
-    stops: cables.map((c) => [c.sample.distance, c.sample.heading]),
-    plot: {
-      ...sized(width, Math.max(260, width * 0.42)),
-      x: {label: "distance driven (m)", labelAnchor: "center", ...(view.x && {domain: view.x})},
-      y: {label: "heading error (°)", nice: true, ...(view.y && {domain: view.y})},
-      marks: [...grid(), ...plain.map((run) => curve(run, "var(--muted)", 0.8)), ...bumped.map((run) => curve(run, colour(run.direction), 1.4)),
-        Plot.dot(cables, {
-          x: (c) => c.sample.distance, y: (c) => c.sample.heading, symbol: "diamond", r: 4, fill: "var(--bump)", stroke: "var(--card)",
-          title: words, tip, clip: true, className: "cable"})],
-    },
+    label: `Heading error over distance of ${bumped.length} runs with cables; per cable ${degUnit(data.summary.extended?.per_bump_heading_error_rad)}`,
+    points: cables.map((c) => ({x: c.sample.distance, y: c.sample.heading, words: `cable ${c.number}, ${c.run.id}\n${fixed(c.height_m * 1000, 1)} mm high\n` +
+        `${fixed(c.sample.distance, 2)} m driven\nheading error ${fixed(c.sample.heading, 3)}°`})),
+    height: Math.max(260, width * 0.42), x: {label: "distance driven (m)"}, y: {label: "heading error (°)", nice: true},
+    marks: [...plain.map((run) => curve(run, "var(--muted)", 0.8)), ...bumped.map((run) => curve(run, colour(run.direction), 1.4)),
+      Plot.dot(cables, {x: (c) => c.sample.distance, y: (c) => c.sample.heading, symbol: "diamond", r: 4, fill: "var(--bump)", stroke: "var(--card)", className: "cable"})],
   };
 }

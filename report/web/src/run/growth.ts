@@ -1,14 +1,15 @@
 // Figure 3: how the error grows along the way. A stretch that is marked here is marked in the paths, too.
 
 import * as Plot from "@observablehq/plot";
-import {Chart, grid, sized, tip, type Drawing, type Range} from "../lib/chart";
+import {Chart, type Drawing, type Range} from "../lib/chart";
 import {colour, directionName, fixed, stageName} from "../lib/format";
 import {fill, find, html} from "../lib/html";
 import {heading, legend, lineIcon, type Section} from "../lib/page";
+import {between} from "../lib/routes";
 import {CAPTIONS} from "./captions";
 import {directions, repeats, type Choice} from "./choice";
 import type {RunData, Tracked} from "./data";
-import {errorSeries, legs, turnDistances, type Sample} from "./series";
+import {errorSeries, legs, turnDistances} from "./series";
 
 type Key = "position" | "heading";
 const UNITS = {position: "mm", heading: "°"};
@@ -50,9 +51,8 @@ function setup(data: RunData, choice: Choice, section: HTMLElement): void {
   });
   choice.moment.on((moment) => charts.forEach((chart) => {
     if (!moment) return chart.cursor([]);
-    const series = errorSeries(moment.run);
-    const i = Math.min(Math.floor(moment.index), series.length - 2);
-    chart.cursor([{x: series[i].distance + (moment.index - i) * (series[i + 1].distance - series[i].distance), colour: "var(--accent)"}]);
+    const {x} = between(errorSeries(moment.run).map((s) => [s.distance, 0]), moment.index);
+    chart.cursor([{x, colour: "var(--accent)"}]);
   }));
 }
 
@@ -67,22 +67,16 @@ function drawing(data: RunData, choice: Choice, key: Key, width: number): Drawin
   const others = chosen.flatMap((run) => repeats(data, run)).filter((run) => !chosen.includes(run));
   const all = [...chosen, ...others].map(errorSeries);
   const curve = (run: Tracked, faint: boolean) => Plot.line(errorSeries(run), {
-    x: "distance", y: key, stroke: colour(run.direction), strokeWidth: faint ? 1 : 2, strokeOpacity: faint ? 0.35 : 1, clip: true,
+    x: "distance", y: key, stroke: colour(run.direction), strokeWidth: faint ? 1 : 2, strokeOpacity: faint ? 0.35 : 1,
     strokeDasharray: run.direction === "ccw" ? "7 3" : undefined, className: faint ? "repeat" : "series"});
-  const rows = chosen.flatMap((run) => errorSeries(run).map((s) => ({run, s})));
-  const words = ({run, s}: {run: Tracked; s: Sample}) => `${run.id}, ${stageName(run.stage)}\n${fixed(s.distance, 2)} m driven\n` +
-      `position error ${fixed(s.position, 1)} mm\nheading error ${fixed(s.heading, 3)}°`;
   const ends = chosen.map((run) => `${directionName(run.direction)} run ${run.id} ends at ${fixed(errorSeries(run).at(-1)![key], 2)} ${UNITS[key]}`);
   return {
-    label: `${key === "position" ? "Position" : "Heading"} error over the distance driven: ${ends.join(", ")}`,
-    stops: errorSeries(chosen[0]).filter((_, i) => i % 8 === 0).map((s) => [s.distance, s[key]]),
-    plot: {
-      ...sized(width, Math.max(250, width * 0.62)),
-      x: {domain: [0, 1.02 * Math.max(0.01, ...all.map((s) => s.at(-1)!.distance))], label: "distance driven (m)", labelAnchor: "center"},
-      y: {domain: padded(all.flat().map((s) => s[key])), label: `${key} error (${UNITS[key]})`},
-      marks: [...grid(), Plot.ruleX(turnDistances(errorSeries(chosen[0])), {stroke: "var(--axis)", strokeDasharray: "1 4"}),
-        ...others.map((run) => curve(run, true)), ...chosen.map((run) => curve(run, false)),
-        Plot.tip(rows, Plot.pointer({x: (d) => d.s.distance, y: (d) => d.s[key], title: words, ...tip}))],
-    },
+    label: `${key === "position" ? "Position" : "Heading"} error over the distance driven: ${ends.join(", ")}`, height: Math.max(250, width * 0.62),
+    points: chosen.flatMap((run) => errorSeries(run).map((s) => ({x: s.distance, y: s[key], words: `${run.id}, ${stageName(run.stage)}\n` +
+        `${fixed(s.distance, 2)} m driven\nposition error ${fixed(s.position, 1)} mm\nheading error ${fixed(s.heading, 3)}°`}))), every: 8,
+    x: {domain: [0, 1.02 * Math.max(0.01, ...all.map((s) => s.at(-1)!.distance))], label: "distance driven (m)"},
+    y: {domain: padded(all.flat().map((s) => s[key])), label: `${key} error (${UNITS[key]})`},
+    marks: [Plot.ruleX(turnDistances(errorSeries(chosen[0])), {stroke: "var(--axis)", strokeDasharray: "1 4"}),
+      ...others.map((run) => curve(run, true)), ...chosen.map((run) => curve(run, false))],
   };
 }

@@ -18,7 +18,7 @@ import {workedSection} from "./worked";
 function headline({summary: {umbmark = {}, recovery, one_way: oneWay}, runs, page}: RunData): Html {
   const counts = ["cw", "ccw"].map((d) => (umbmark[d] ?? {}).runs).filter(isNumber);
   if (isNumber(umbmark.e_max_syst_m)) {
-    const driven = counts.length === 2 ? `Over ${counts[0]} clockwise and ${counts[1]} counter-clockwise squares` : "Over squares driven both ways";
+    const driven = counts.length === 2 ? `Over ${counts[0]} clockwise and ${plural(counts[1], "counter-clockwise square")}` : "Over squares driven both ways";
     const before = html`${driven} the largest systematic return error, ${E_MAX}, is <b>${mmUnit(umbmark.e_max_syst_m)}</b>`;
     if (!recovery || !isNumber(recovery.e_max_after_m)) return html`${before}.`;
     const after = html`${before}. Calibrated and driven again, it is <b>${mmUnit(recovery.e_max_after_m)}</b>`;

@@ -1,12 +1,13 @@
 // Figure 1: return position errors (mm), the lecture's closing figure.
 
 import * as Plot from "@observablehq/plot";
-import {Chart, grid, square, tip, type Drawing, type Range, type View} from "../lib/chart";
+import {group} from "d3";
+import {Chart, type Drawing, type Point} from "../lib/chart";
 import {capital, colour, degUnit, directionName, E_MAX, fixed, isNumber, mmUnit, stageName} from "../lib/format";
 import {fill, find, html, type Html} from "../lib/html";
-import {heading, legend, lineIcon, markerIcon, type Section} from "../lib/page";
+import {heading, icon, legend, lineIcon, markerIcon, SPREAD, type Section} from "../lib/page";
 import {CAPTIONS} from "./captions";
-import {ofKind, type Run, type RunData} from "./data";
+import {ofKind, type RunData} from "./data";
 import {clustersOf, eMaxOf, outline, type Cluster} from "./statistics";
 
 const STAGES = ["before", "bumped", "after"];
@@ -30,10 +31,10 @@ function setup(data: RunData, present: string[], section: HTMLElement): void {
   const shown = () => present.filter((s) => visible.has(s));
   const box = () => (zoomed && visible.has("after") && shown().length > 1 ? spanOf(data, ["after"]) : undefined);
   const charts = [new Chart(find(section, "#scatter-all"), {
-    name: "return-errors", zoom: "square", draw: (width, view) => drawing(data, shown(), width, view, box())})];
+    name: "return-errors", zoom: "square", draw: () => drawing(data, shown(), box())})];
   if (zoomed) {
     charts.push(new Chart(find(section, "#scatter-after"), {
-      name: "return-errors-after", zoom: "square", draw: (width, view) => drawing(data, ["after"], width, view)}));
+      name: "return-errors-after", zoom: "square", draw: () => drawing(data, ["after"])}));
   }
   const words = () => {
     const scores = shown().filter((s) => s !== "bumped" && isNumber(eMaxOf(clustersOf(data, s)))).map((s) => `${mmUnit(eMaxOf(clustersOf(data, s)))}${zoomed ? ` ${s}` : ""}`);
@@ -63,64 +64,70 @@ function spanOf(data: RunData, stages: string[]): number {
   return Math.max(0, ...reach) * 1000 * 1.12 || 1;
 }
 
-const words = (run: Run): string => `${run.id}, ${stageName(run.stage)}\nx ${mmUnit(run.error!.x_m)}\ny ${mmUnit(run.error!.y_m)}\n` +
-    `distance ${mmUnit(Math.hypot(run.error!.x_m, run.error!.y_m))}\nheading ${degUnit(run.error!.theta_rad)}`;
-
-const x = (run: Run): number => run.error!.x_m * 1000;
-const y = (run: Run): number => run.error!.y_m * 1000;
-
-function clusterMarks(direction: string, cluster: Cluster): Plot.Markish[] {
-  const centre: [number, number] = [cluster.centroid_x_m * 1000, cluster.centroid_y_m * 1000];
-  const e = cluster.ellipse;
-  const about = `centre of gravity, ${directionName(direction)}\nx ${mmUnit(cluster.centroid_x_m)}\ny ${mmUnit(cluster.centroid_y_m)}\n` +
-      `r_cg ${mmUnit(cluster.r_cg_m)}`;
-  return [
-    e && cluster.runs > 2 ? Plot.line(outline(centre, e.a_m * 1000, e.b_m * 1000, e.angle_rad), {
-      stroke: colour(direction), strokeWidth: 1, fill: colour(direction), fillOpacity: 0.12, clip: true, className: "spread"}) : null,
-    Plot.link([centre], {x1: 0, y1: 0, x2: (c) => c[0], y2: (c) => c[1], stroke: colour(direction), strokeWidth: 1.6, clip: true}),
-    ...[[5, "var(--card)"], [2.2, "var(--ink)"]].map(([strokeWidth, stroke], i) => Plot.dot([centre], {
-      symbol: "plus", r: 8, stroke: stroke as string, strokeWidth: strokeWidth as number, clip: true,
-      ...(i ? {title: () => about, tip} : {}), className: i ? "centroid" : "halo"}))];
+/// An end of a run in a plane of errors, mm.
+export interface End {
+  x: number;
+  y: number;
+  direction: string;
+  stage: string;
+  words: string;
 }
 
 /// cw: circles, ccw: triangles; hollow before, filled after, pale with cables.
-function dots(runs: Run[], direction: string, stage: string): Plot.Markish {
-  const full = stage !== "before";
-  return Plot.dot(runs, {
-    x, y, symbol: direction === "cw" ? "circle" : direction === "ccw" ? "triangle" : "square", r: 4.6, clip: true,
-    stroke: stage === "after" ? "var(--card)" : colour(direction), strokeWidth: full ? 1 : 1.6,
-    fill: full ? colour(direction) : "var(--card)", fillOpacity: stage === "bumped" ? 0.35 : 1, title: words, tip,
-    className: `end-point ${stage}`});
+export const endMarks = (ends: End[]): Plot.Markish[] => [...group(ends, (e) => e.stage, (e) => e.direction)].flatMap(([stage, own]) => [...own].map(([direction, some]) =>
+    Plot.dot(some, {
+      x: "x", y: "y", symbol: direction === "cw" ? "circle" : direction === "ccw" ? "triangle" : "square", r: 4.6,
+      stroke: stage === "after" ? "var(--card)" : colour(direction), strokeWidth: stage === "before" ? 1.6 : 1,
+      fill: stage === "before" ? "var(--card)" : colour(direction), fillOpacity: stage === "bumped" ? 0.35 : 1, className: `end-point ${stage}`})));
+
+/// Square axes about the origin.
+export const axesTo = (reach: number, x: string, y: string): Pick<Drawing, "x" | "y"> =>
+    ({x: {domain: [-reach, reach], label: x}, y: {domain: [-reach, reach], label: y, tickSpacing: 80}});
+
+/// Places that a chart cannot tell apart have one tip, which tells of all of them.
+export function together(points: Point[], reach: number): Point[] {
+  const near = (v: unknown) => Math.round(Number(v) / reach * 200);
+  return [...group(points, (p) => `${near(p.x)} ${near(p.y)}`).values()].map((some) => ({...some[0], words: some.map((p) => p.words).join("\n\n")}));
 }
 
-function drawing(data: RunData, stages: string[], width: number, view: View, box?: number): Drawing {
+const endsOf = (data: RunData, stages: string[]): End[] => stages.flatMap((stage) => ofKind(data, stage)).map(({id, direction, stage, error}) => ({
+  x: error!.x_m * 1000, y: error!.y_m * 1000, direction, stage, words: `${id}, ${stageName(stage)}\nx ${mmUnit(error!.x_m)}\ny ${mmUnit(error!.y_m)}\n` +
+      `distance ${mmUnit(Math.hypot(error!.x_m, error!.y_m))}\nheading ${degUnit(error!.theta_rad)}`}));
+
+interface Centre extends Point {
+  direction: string;
+  cluster: Cluster;
+}
+
+function centresOf(data: RunData, stage: string): Centre[] {
+  return Object.entries(clustersOf(data, stage)).map(([direction, cluster]) => ({
+    direction, cluster, x: cluster.centroid_x_m * 1000, y: cluster.centroid_y_m * 1000,
+    words: `centre of gravity, ${directionName(direction)}\nx ${mmUnit(cluster.centroid_x_m)}\ny ${mmUnit(cluster.centroid_y_m)}\nr_cg ${mmUnit(cluster.r_cg_m)}`}));
+}
+
+const circle = (radius: number, className: string): Plot.Markish =>
+    Plot.line(outline([0, 0], radius, radius, 0, 96), {stroke: "var(--ink)", strokeWidth: 1.2, strokeDasharray: "6 4", className});
+
+function centreMarks(centres: Centre[]): Plot.Markish[] {
+  const plus = (strokeWidth: number, stroke: string, className: string) => Plot.dot(centres, {x: "x", y: "y", symbol: "plus", r: 8, stroke, strokeWidth, className});
+  return [
+    ...centres.filter(({cluster}) => cluster.ellipse && cluster.runs > 2).map(({x, y, direction, cluster: {ellipse: e}}) =>
+      Plot.line(outline([Number(x), Number(y)], e!.a_m * 1000, e!.b_m * 1000, e!.angle_rad), {
+        stroke: colour(direction), strokeWidth: 1, fill: colour(direction), fillOpacity: 0.12, className: "spread"})),
+    Plot.link(centres, {x1: 0, y1: 0, x2: "x", y2: "y", stroke: (c) => colour(c.direction), strokeWidth: 1.6}), plus(5, "var(--card)", "halo"), plus(2.2, "var(--ink)", "centroid")];
+}
+
+function drawing(data: RunData, stages: string[], box?: number): Drawing {
   const span = spanOf(data, stages);
-  const full: Range = [-span, span];
-  const marks: Plot.Markish[] = [...grid()];
-  const texts: string[] = [];
-  for (const stage of stages) {
-    const clusters = clustersOf(data, stage);
-    const e = stage === "bumped" ? undefined : eMaxOf(clusters);
-    if (isNumber(e)) {
-      marks.push(Plot.line(outline([0, 0], e * 1000, e * 1000, 0, 96), {
-        stroke: "var(--ink)", strokeWidth: 1.2, strokeDasharray: "6 4", clip: true, className: "emax"}));
-    }
-    for (const [direction, cluster] of Object.entries(clusters)) {
-      marks.push(...clusterMarks(direction, cluster));
-      texts.push(`${directionName(direction)} ${stageName(stage)}: centre ${mmUnit(cluster.r_cg_m)} from the origin`);
-    }
-    for (const direction of new Set(ofKind(data, stage).map((r) => r.direction))) {
-      marks.push(dots(ofKind(data, stage, direction), direction, stage));
-    }
-  }
-  if (box && box < span * 0.7) {
-    marks.push(Plot.rect([box], {x1: (b) => -b, x2: (b) => b, y1: (b) => -b, y2: (b) => b, stroke: "var(--accent)", fill: "none", strokeWidth: 1.3}));
-  }
+  const ends = endsOf(data, stages);
+  const centres = stages.map((stage) => centresOf(data, stage));
+  const radii = stages.filter((s) => s !== "bumped").map((s) => eMaxOf(clustersOf(data, s))).filter(isNumber);
+  const texts = stages.flatMap((stage, i) => centres[i].map((c) => `${directionName(c.direction)} ${stageName(stage)}: centre ${mmUnit(c.cluster.r_cg_m)} from the origin`));
   return {
-    label: `Scatter of return position errors. ${texts.join("; ") || "Nothing selected"}.`,
-    stops: stages.flatMap((s) => ofKind(data, s)).map((r) => [x(r), y(r)]),
-    plot: {...square(width), marks,
-           x: {domain: view.x ?? full, label: "x error (mm)", labelAnchor: "center"}, y: {domain: view.y ?? full, label: "y error (mm)"}},
+    label: `Scatter of return position errors. ${texts.join("; ") || "Nothing selected"}.`, points: together([...ends, ...centres.flat()], span),
+    ...axesTo(span, "x error (mm)", "y error (mm)"), plot: {color: {type: "identity"}},
+    marks: [...radii.map((r) => circle(r * 1000, "emax")), ...centres.flatMap(centreMarks), ...endMarks(ends),
+      box && box < span * 0.7 ? Plot.rect([box], {x1: -box, x2: box, y1: -box, y2: box, stroke: "var(--accent)", fill: "none", strokeWidth: 1.3}) : null],
   };
 }
 
@@ -129,12 +136,11 @@ function legendOf(data: RunData, stages: string[], boxed: boolean): Html {
     const n = ofKind(data, stage, direction).length;
     return n ? [[markerIcon(direction, stage), `${direction} ${stageName(stage)} (${n})`]] : [];
   }));
-  const plus = html`<svg width="16" height="16" aria-hidden="true"><path class="centroid-icon" d="M1 8H15M8 1V15"/></svg>`;
-  items.push([plus, "centre of gravity"], [lineIcon("var(--cw)"), html`r<sub>cg</sub>`]);
+  items.push([icon("centroid-icon", "M1 8H15M8 1V15"), "centre of gravity"], [lineIcon("var(--cw)"), html`r<sub>cg</sub>`]);
   if (stages.some((s) => Object.values(clustersOf(data, s)).some((c) => c.runs > 2))) {
-    items.push([html`<svg width="24" height="14" aria-hidden="true"><ellipse class="spread-icon" cx="12" cy="7" rx="11" ry="6"/></svg>`, "1\u03c3 spread"]);
+    items.push([icon("spread-icon", SPREAD), "1\u03c3 spread"]);
   }
   if (stages.some((s) => isNumber(eMaxOf(clustersOf(data, s))))) items.push([lineIcon("var(--ink)", "6 4"), html`radius ${E_MAX}`]);
-  if (boxed) items.push([html`<svg width="14" height="14" aria-hidden="true"><rect class="box-icon" x="1" y="1" width="12" height="12"/></svg>`, "enlarged part"]);
+  if (boxed) items.push([icon("box-icon", "M2 2H14V14H2Z"), "enlarged part"]);
   return legend(items);
 }

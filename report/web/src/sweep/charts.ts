@@ -2,7 +2,7 @@
 
 import * as Plot from "@observablehq/plot";
 import {group, quantileSorted} from "d3";
-import {grid, sized, tip, type Drawing, type View} from "../lib/chart";
+import type {Drawing, Point} from "../lib/chart";
 import {isNumber, short} from "../lib/format";
 import {axisOf, describe, faultOf, isScattered, labelOf, numberOf, valueOf, type Axis, type Row, type SweepData} from "./data";
 
@@ -30,40 +30,40 @@ function place(data: SweepData, rows: Row[], c: Choice) {
 
 type Place = ReturnType<typeof place> & {x: number | string; y?: number | string};
 
-const scaleOf = (axis: Axis): Plot.ScaleOptions =>
-    (axis.numeric ? {type: axis.log ? "log" : "linear"} : {type: "point", domain: axis.values as string[], padding: 0.5});
+const scaleOf = (data: SweepData, axis: Axis): Plot.ScaleOptions => ({label: labelOf(data, axis.key), inset: 8,
+  ...(axis.numeric ? {type: axis.log ? "log" : "linear", ...(axis.log && {tickFormat: (v: number) => (/^[125]/.test(v.toExponential()) ? short(v) : "")})} :
+                     {type: "point", domain: axis.values as string[], padding: 0.5})});
+
+const labelled = (data: SweepData, c: Choice): string => (c.log ? `|${labelOf(data, c.figure)}|` : labelOf(data, c.figure));
 
 const words = (data: SweepData, c: Choice, p: Place): string => [
   describe(data, p.row), `${labelOf(data, c.figure)}: ${short(p.middle)}${p.n > 1 ? `, median of ${p.n}, 80 % from ${short(p.low)} to ${short(p.high)}` : ""}`,
   p.rows.map((r) => faultOf(data, r)).find(Boolean)].filter(Boolean).join("\n");
 
-/// Crosses where a point could not be driven, rings where an expectation is not met.
-const faults = (data: SweepData, c: Choice, places: Place[], y: (p: Place) => number | string): Plot.Markish[] => [
-  Plot.dot(places.filter((p) => p.unmet), {x: "x", y, r: 6.5, stroke: "var(--bad)", strokeWidth: 1.6, className: "unmet", title: (p) => words(data, c, p), tip, clip: true}),
-  ...[4.6, 2.2].map((strokeWidth, i) => Plot.dot(places.filter((p) => p.failed), {x: "x", y, symbol: "times", r: 5, stroke: i ? "var(--bad)" : "var(--card)", strokeWidth,
-    className: i ? "fault" : "halo", title: (p) => words(data, c, p), ...(i ? {tip} : {})}))];
+const pointsOf = (data: SweepData, c: Choice, places: Place[], y: (p: Place) => number | string): Point[] =>
+    places.map((p) => ({x: p.x, y: y(p), words: words(data, c, p)}));
 
-export function curves(data: SweepData, rows: Row[], c: Choice, width: number, view: View): Drawing {
-  const xAxis = axisOf(data, c.x)!;
-  const series = [...group(rows, (r) => (c.y ? valueOf(data, r, c.y) : ""))].map(([name, own], i) => ({
-    name, colour: CURVES[i % CURVES.length], symbol: SYMBOLS[i % SYMBOLS.length] as Plot.SymbolType,
+/// Crosses where a point could not be driven, rings where an expectation is not met.
+const faults = (places: Place[], y: (p: Place) => number | string): Plot.Markish[] => [
+  Plot.dot(places.filter((p) => p.unmet), {x: "x", y, r: 6.5, stroke: "var(--bad)", strokeWidth: 1.6, className: "unmet"}),
+  ...[4.6, 2.2].map((strokeWidth, i) => Plot.dot(places.filter((p) => p.failed), {
+    x: "x", y, symbol: "times", r: 5, stroke: i ? "var(--bad)" : "var(--card)", strokeWidth, className: i ? "fault" : "halo"}))];
+
+function curves(data: SweepData, rows: Row[], c: Choice, width: number): Drawing {
+  const series = [...group(rows, (r) => (c.y ? valueOf(data, r, c.y) : ""))].map(([, own], i) => ({
+    colour: CURVES[i % CURVES.length], symbol: SYMBOLS[i % SYMBOLS.length] as Plot.SymbolType,
     places: [...group(own, (r) => valueOf(data, r, c.x))].map(([x, at]): Place => ({...place(data, at, c), x: x!})).sort((a, b) => (a.x < b.x ? -1 : 1))}));
   const all = series.flatMap((s) => s.places);
-  const shown = all.filter((p) => finite(p.middle));
-  const lowest = Math.min(...shown.map((p) => p.middle), Infinity);
+  const lowest = Math.min(...all.map((p) => p.middle).filter(finite), Infinity);
+  const y = (p: Place) => (finite(p.middle) ? p.middle : lowest);
   return {
-    label: `${labelOf(data, c.figure)} over ${labelOf(data, c.x)}${c.y ? `, a curve for each ${labelOf(data, c.y)}` : ""}`,
-    stops: shown.map((p) => [p.x, p.middle]),
-    plot: {
-      ...sized(width, Math.max(280, width * 0.52)), x: {...scaleOf(xAxis), label: labelOf(data, c.x), labelAnchor: "center", ...(view.x && xAxis.numeric && {domain: view.x})},
-      y: {type: c.log ? "log" : "linear", nice: true, label: c.log ? `|${labelOf(data, c.figure)}|` : labelOf(data, c.figure), ...(view.y && {domain: view.y})},
-      marks: [...grid().slice(0, 2),
-        ...series.flatMap((s) => [
-          Plot.areaY(s.places.filter((p) => p.n > 2), {x: "x", y1: "low", y2: "high", fill: s.colour, fillOpacity: 0.15, clip: true, className: "band"}),
-          Plot.line(s.places.filter((p) => finite(p.middle)), {x: "x", y: "middle", stroke: s.colour, strokeWidth: 2, clip: true, className: "curve"}),
-          Plot.dot(s.places.filter((p) => finite(p.middle)), {x: "x", y: "middle", symbol: s.symbol, r: 3.6, fill: s.colour, clip: true, title: (p) => words(data, c, p), tip, className: "place"})]),
-        ...faults(data, c, all, (p) => (finite(p.middle) ? p.middle : lowest))],
-    },
+    label: `${labelOf(data, c.figure)} over ${labelOf(data, c.x)}${c.y ? `, a curve for each ${labelOf(data, c.y)}` : ""}`, points: pointsOf(data, c, all, y), grid: "xy",
+    height: Math.max(280, width * 0.52), x: scaleOf(data, axisOf(data, c.x)!),
+    y: {nice: true, label: labelled(data, c), ...(c.log && {type: "log" as const, tickFormat: short})},
+    marks: [...series.flatMap(({places, colour, symbol}) => [
+      Plot.areaY(places.filter((p) => p.n > 2), {x: "x", y1: "low", y2: "high", fill: colour, fillOpacity: 0.15, className: "band"}),
+      Plot.line(places.filter((p) => finite(p.middle)), {x: "x", y: "middle", stroke: colour, strokeWidth: 2, className: "curve"}),
+      Plot.dot(places.filter((p) => finite(p.middle)), {x: "x", y: "middle", symbol, r: 3.6, fill: colour, clip: false, className: "place"})]), ...faults(all, y)],
   };
 }
 
@@ -73,58 +73,51 @@ export const curveNames = (data: SweepData, rows: Row[], c: Choice): [string, st
 /// Colours of the figure: by size on a logarithmic scale, or evenly; about 0 where both signs occur.
 export function colours(data: SweepData, rows: Row[], c: Choice): Plot.ScaleOptions {
   const values = rows.map((r) => numberOf(data, r, c.figure)).filter(finite);
-  const both = values.some((v) => v < 0) && values.some((v) => v > 0);
-  const label = c.log ? `|${labelOf(data, c.figure)}|` : labelOf(data, c.figure);
+  const [low, high] = [Math.min(...values), Math.max(...values)];
+  const label = labelled(data, c);
   if (c.log) {
     const sizes = values.map(Math.abs).filter((v) => v > 0);
-    const high = Math.max(...sizes, 1e-12);
-    return {type: "log", scheme: "viridis", label, domain: [Math.max(Math.min(...sizes, high), high * 1e-9), high]};
+    const most = Math.max(...sizes, 1e-12);
+    return {type: "log", scheme: "viridis", label, domain: [Math.max(Math.min(...sizes, most), most * 1e-9), most]};
   }
-  return both ? {type: "diverging", scheme: "PuOr", reverse: true, label, symmetric: true} as Plot.ScaleOptions : {type: "linear", scheme: "viridis", label};
+  if (low >= 0 || high <= 0) return {type: "linear", scheme: "viridis", label, domain: [low, high]};
+  return {type: "diverging", scheme: "PuOr", reverse: true, label, domain: [-Math.max(-low, high), Math.max(-low, high)]};
 }
 
-export function cells(data: SweepData, rows: Row[], c: Choice, width: number): Drawing {
+const fill = (p: Place) => (finite(p.middle) ? p.middle : null);
+
+function cells(data: SweepData, rows: Row[], c: Choice, width: number): Drawing {
   const [xAxis, yAxis] = [axisOf(data, c.x)!, axisOf(data, c.y)!];
   const places = [...group(rows, (r) => valueOf(data, r, c.x), (r) => valueOf(data, r, c.y))].flatMap(([x, at]) =>
     [...at].map(([y, own]): Place => ({...place(data, own, c), x: x!, y: y!})));
   const height = Math.max(200, Math.min(560, width * Math.min(1.1, Math.max(0.3, yAxis.values.length / xAxis.values.length))));
-  const ticks = (axis: Axis, room: number) => axis.values.filter((_, i) => i % Math.max(1, Math.ceil(axis.values.length / room)) === 0);
-  const left = Math.min(130, 44 + 6 * Math.max(...yAxis.values.map((v) => short(v).length)));
+  const axis = (a: Axis, room: number): Plot.ScaleOptions => ({
+    domain: a.values as string[], label: labelOf(data, a.key), tickFormat: short,
+    ticks: a.values.filter((_, i) => i % Math.max(1, Math.ceil(a.values.length / room)) === 0) as string[]});
   return {
-    label: `${labelOf(data, c.figure)} over ${labelOf(data, c.x)} and ${labelOf(data, c.y)}`, stops: [],
-    plot: {
-      width, height, marginLeft: left, marginBottom: 44, marginTop: 28, color: colours(data, rows, c),
-      x: {domain: xAxis.values as string[], label: labelOf(data, c.x), tickFormat: short, ticks: ticks(xAxis, width / 56) as string[], labelAnchor: "center"},
-      y: {domain: [...yAxis.values].reverse() as string[], label: labelOf(data, c.y), tickFormat: short, ticks: ticks(yAxis, height / 18) as string[]},
-      marks: [
-        Plot.cell(places, {x: "x", y: "y", fill: (p: Place) => (finite(p.middle) ? p.middle : null), inset: 0, title: (p: Place) => words(data, c, p), tip, className: "cell"}),
-        Plot.frame({stroke: "var(--line)"}), ...faults(data, c, places, (p) => p.y!)],
-    },
+    label: `${labelOf(data, c.figure)} over ${labelOf(data, c.x)} and ${labelOf(data, c.y)}`, points: pointsOf(data, c, places, (p) => p.y!), grid: "none", height,
+    plot: {marginLeft: Math.min(130, 44 + 6 * Math.max(...yAxis.values.map((v) => short(v).length))), marginBottom: 44, marginTop: 28, color: colours(data, rows, c)},
+    x: axis(xAxis, width / 56), y: {...axis(yAxis, height / 18), reverse: true},
+    marks: [Plot.cell(places, {x: "x", y: "y", fill, inset: 0, className: "cell"}), Plot.frame({stroke: "var(--line)"}), ...faults(places, (p) => p.y!)],
   };
 }
 
-export function points(data: SweepData, rows: Row[], c: Choice, width: number, view: View): Drawing {
-  const [xAxis, yAxis] = [axisOf(data, c.x)!, axisOf(data, c.y)!];
+function dots(data: SweepData, rows: Row[], c: Choice, width: number): Drawing {
   const places = rows.map((r): Place => ({...place(data, [r], c), x: numberOf(data, r, c.x), y: numberOf(data, r, c.y)}));
   const many = places.length > MOST_DOTS;
-  const fill = (p: Place) => (finite(p.middle) ? p.middle : null);
   return {
     label: `${labelOf(data, c.figure)} over ${labelOf(data, c.x)} and ${labelOf(data, c.y)}${many ? ", medians of small cells" : ""}`,
-    stops: many ? [] : places.map((p) => [p.x, p.y as number]),
-    plot: {
-      ...sized(width, Math.max(300, width * 0.58)), color: colours(data, rows, c),
-      x: {...scaleOf(xAxis), label: labelOf(data, c.x), labelAnchor: "center", ...(view.x && {domain: view.x})},
-      y: {...scaleOf(yAxis), label: labelOf(data, c.y), ...(view.y && {domain: view.y})},
-      marks: [...grid().slice(0, 2),
-        many ? Plot.dot(places, Plot.hexbin({fill: "median"}, {x: "x", y: "y", fill, binWidth: 11, tip: true, className: "cell"})) :
-               Plot.dot(places, {x: "x", y: "y", fill, r: 4.6, stroke: "var(--axis)", strokeWidth: 0.5, title: (p) => words(data, c, p), tip, clip: true, className: "cell"}),
-        ...faults(data, c, places.filter((p) => p.failed || p.unmet).slice(0, MOST_DOTS), (p) => p.y!)],
-    },
+    points: many ? [] : pointsOf(data, c, places, (p) => p.y!), grid: "xy", height: Math.max(300, width * 0.58), plot: {color: colours(data, rows, c)},
+    x: scaleOf(data, axisOf(data, c.x)!), y: scaleOf(data, axisOf(data, c.y)!),
+    marks: [
+      many ? Plot.dot(places, Plot.hexbin({fill: "median"}, {x: "x", y: "y", fill, binWidth: 11, tip: {clip: false}, className: "cell"})) :
+             Plot.dot(places, {x: "x", y: "y", fill, r: 4.6, stroke: "var(--axis)", strokeWidth: 0.5, className: "cell"}),
+      ...faults(places.filter((p) => p.failed || p.unmet).slice(0, MOST_DOTS), (p) => p.y!)],
   };
 }
 
 /// Every axis and the figure as an upright scale from least to most; a line for each point.
-export function parallel(data: SweepData, rows: Row[], c: Choice, width: number): Drawing {
+function parallel(data: SweepData, rows: Row[], c: Choice, width: number): Drawing {
   const names = [...data.axes.filter((a) => a.values.length > 1).map((a) => a.key), c.figure];
   const stride = Math.ceil(rows.length / MOST_LINES);
   const shown = rows.filter((r, i) => i % stride === 0 || r.failed);
@@ -146,25 +139,22 @@ export function parallel(data: SweepData, rows: Row[], c: Choice, width: number)
   }));
   const label = (name: string) => labelOf(data, name);
   return {
-    label: `All axes side by side, a line for each of ${shown.length} points, coloured by ${label(c.figure)}`, stops: [],
-    plot: {
-      width, height: Math.max(320, width * 0.45), marginTop: 30, marginBottom: 60, marginLeft: 50, marginRight: 50, color: colours(data, rows, c),
-      x: {type: "point", domain: names, label: null, tickFormat: label, tickRotate: names.length * 130 > width ? -18 : 0}, y: {axis: null, domain: [0, 1]},
-      marks: [
-        Plot.line(corners.filter((p) => !p.row.failed), {x: "name", y: "at", z: (p) => p.row.point, stroke: (p) => (c.log ? Math.abs(p.value) : p.value), strokeWidth: 1, strokeOpacity: 0.45, className: "point"}),
-        Plot.line(corners.filter((p) => p.row.failed && finite(p.at)), {x: "name", y: "at", z: (p) => p.row.point, stroke: "var(--bad)", strokeDasharray: "3 2", className: "fault"}),
-        Plot.ruleX(names, {stroke: "var(--axis)"}),
-        Plot.text(ends, {x: "name", y: "end", text: "text", dy: (0), textAnchor: "start", dx: 4, lineAnchor: "middle", fill: "var(--ink)", stroke: "var(--card)", strokeWidth: 4, fontSize: 11.5})],
-    },
+    label: `All axes side by side, a line for each of ${shown.length} points, coloured by ${label(c.figure)}`, grid: "none",
+    height: Math.max(320, width * 0.45), plot: {marginTop: 30, marginBottom: 60, marginLeft: 50, marginRight: 50, color: colours(data, rows, c)},
+    x: {type: "point", domain: names, label: null, tickFormat: label, tickRotate: names.length * 130 > width ? -18 : 0}, y: {axis: null, domain: [0, 1]},
+    marks: [
+      Plot.line(corners.filter((p) => !p.row.failed), {x: "name", y: "at", z: (p) => p.row.point, stroke: (p) => (c.log ? Math.abs(p.value) : p.value), strokeWidth: 1, strokeOpacity: 0.45, className: "point"}),
+      Plot.line(corners.filter((p) => p.row.failed && finite(p.at)), {x: "name", y: "at", z: (p) => p.row.point, stroke: "var(--bad)", strokeDasharray: "3 2", className: "fault"}),
+      Plot.ruleX(names, {stroke: "var(--axis)"}),
+      Plot.text(ends, {x: "name", y: "end", text: "text", textAnchor: "start", dx: 4, lineAnchor: "middle", fill: "var(--ink)", stroke: "var(--card)", strokeWidth: 4, fontSize: 11.5, clip: false})],
   };
 }
 
 /// Which picture serves.
-export function drawing(data: SweepData, rows: Row[], c: Choice, width: number, view: View): Drawing {
+export function drawing(data: SweepData, rows: Row[], c: Choice, width: number): Drawing {
   if (c.kind === "parallel") return parallel(data, rows, c, width);
-  const [x, y] = [axisOf(data, c.x)!, axisOf(data, c.y)];
-  if (!y || (c.kind === "curves" && y.values.length <= CURVES.length)) return curves(data, rows, c, width, view);
-  return isScattered(data, x) && isScattered(data, y) ? points(data, rows, c, width, view) : cells(data, rows, c, width);
+  if (isCurves(data, c)) return curves(data, rows, c, width);
+  return isScattered(data, axisOf(data, c.x)!) && isScattered(data, axisOf(data, c.y)!) ? dots(data, rows, c, width) : cells(data, rows, c, width);
 }
 
 export const isCurves = (data: SweepData, c: Choice): boolean =>

@@ -1,7 +1,8 @@
 // Recovered against injected E_d and E_b: does UMBmark find what was put in?
 
 import * as Plot from "@observablehq/plot";
-import {Chart, grid, sized, tip, type Drawing, type View} from "../lib/chart";
+import {extent} from "d3";
+import {Chart, type Drawing} from "../lib/chart";
 import {isNumber} from "../lib/format";
 import {fill, find, html} from "../lib/html";
 import {heading, legend, lineIcon, markerIcon, type Section} from "../lib/page";
@@ -28,28 +29,25 @@ export function recoveredSection(data: SweepData): Section | null {
         stride > 1 ? ` Every ${stride}th point is drawn.` : ""}</figcaption></figure>`);
     for (const {kind, error} of panels) {
       new Chart(find(section, `#recovered-${error}-${kind}`), {
-        name: `recovered-${error}-${kind}`, draw: (width, view) => drawing(data, rows, error, kind, width, view)});
+        name: `recovered-${error}-${kind}`, draw: (width) => drawing(data, rows, error, kind, width)});
     }
   }};
 }
 
-function drawing(data: SweepData, rows: Row[], error: Error, kind: "value" | "error", width: number, view: View): Drawing {
+function drawing(data: SweepData, rows: Row[], error: Error, kind: "value" | "error", width: number): Drawing {
   const name = error.replace("e", "E");
-  const sets = FORMS.map((form) => rows.map((row) => {
+  const points = FORMS.flatMap((form) => rows.flatMap((row) => {
     const [x, found] = [numberOf(data, row, `injected.${error}`), numberOf(data, row, `calibration.${form.key}.${error}`)];
-    return {row, form, x, found, y: kind === "value" ? found : found - x};
-  }).filter((p) => isNumber(p.x) && isNumber(p.y)));
-  const xs = sets.flat().map((p) => p.x);
-  const ends = [Math.min(...xs), Math.max(...xs)];
+    const fault = faultOf(data, row);
+    return isNumber(x) && isNumber(found) ? [{form, x, y: kind === "value" ? found : found - x,
+      words: `${form.text}: ${found.toPrecision(7)}\ninjected ${x.toPrecision(7)}\n${describe(data, row)}${fault && `\n${fault}`}`}] : [];
+  }));
   return {
-    label: `${name} ${kind === "value" ? "recovered against injected" : "recovered minus injected, over injected"}`,
-    stops: sets[0].map((p) => [p.x, p.y]),
-    plot: {
-      ...sized(width, Math.max(250, width * 0.62)), marginLeft: 72, x: {label: `injected ${name}`, labelAnchor: "center", ...(view.x && {domain: view.x})},
-      y: {label: kind === "value" ? `recovered ${name}` : `${name}: difference`, nice: true, ...(view.y && {domain: view.y})},
-      marks: [...grid().slice(0, 2), Plot.line(ends.map((x) => [x, kind === "value" ? x : 0]), {stroke: "var(--ink)", strokeDasharray: "6 4", clip: true}),
-        ...sets.map((points, i) => Plot.dot(points, {x: "x", y: "y", symbol: FORMS[i].symbol, r: 3.4, fill: `var(--${FORMS[i].css})`, fillOpacity: 0.6, clip: true, tip,
-          className: "recovered", title: (p) => `${FORMS[i].text}: ${p.found.toPrecision(7)}\ninjected ${p.x.toPrecision(7)}\n${describe(data, p.row)}${faultOf(data, p.row) && `\n${faultOf(data, p.row)}`}`}))],
-    },
+    label: `${name} ${kind === "value" ? "recovered against injected" : "recovered minus injected, over injected"}`, points,
+    height: Math.max(250, width * 0.62), plot: {marginLeft: 72}, grid: "xy", x: {label: `injected ${name}`, inset: 6},
+    y: {label: kind === "value" ? `recovered ${name}` : `${name}: difference`, nice: true},
+    marks: [Plot.line(extent(points, (p) => p.x).map((x) => [x!, kind === "value" ? x! : 0]), {stroke: "var(--ink)", strokeDasharray: "6 4"}),
+      ...FORMS.map((form) => Plot.dot(points.filter((p) => p.form === form), {
+        x: "x", y: "y", symbol: form.symbol, r: 3.4, fill: `var(--${form.css})`, fillOpacity: 0.6, className: "recovered"}))],
   };
 }

@@ -68,12 +68,12 @@ function setup(data: SweepData, section: HTMLElement): void {
       median, and a <b>band</b> that holds 80 % of them. A <b>ring</b> marks points that do not meet an expectation, a <b>cross</b> those that could not be driven.</figcaption></figure>`);
   rows();
   fill(find(section, ".controls"), controls());
-  const chart = new Chart(find(section, "#sweep-map"), {name: "sweep", most: 1060, draw: (width, view) => drawing(data, rows(), choice, width, view)});
+  const chart = new Chart(find(section, "#sweep-map"), {name: "sweep", most: 1060, draw: (width) => drawing(data, rows(), choice, width)});
   const key = () => {
     const slot = find(section, ".key-slot");
     slot.replaceChildren();
     if (isCurves(data, choice)) fill(slot, legend(curveNames(data, rows(), choice).map(([c, text]) => [lineIcon(c), text])));
-    else slot.append(Plot.legend({color: {...colours(data, rows(), choice), domain: (colours(data, rows(), choice) as {domain?: number[]}).domain ?? extent(data, choice)}, width: 300} as unknown as Plot.LegendOptions));
+    else slot.append(Plot.legend({color: colours(data, rows(), choice), width: 300, tickFormat: short} as unknown as Plot.LegendOptions));
   };
   key();
   section.addEventListener("change", (event) => {
@@ -91,12 +91,6 @@ function setup(data: SweepData, section: HTMLElement): void {
     chart.redraw();
     key();
   });
-}
-
-function extent(data: SweepData, choice: Choice): number[] {
-  const values = data.rows.map((r) => valueOf(data, r, choice.figure)).filter((v): v is number => typeof v === "number" && Number.isFinite(v));
-  const [low, high] = values.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [Infinity, -Infinity]);
-  return low < 0 && high > 0 ? [-Math.max(-low, high), Math.max(-low, high)] : [low, high];
 }
 
 export function showSweep(given: SweepData): Promise<void> {
