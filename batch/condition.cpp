@@ -1,13 +1,13 @@
 #include "batch/condition.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 #include <compare>
 #include <limits>
 
-#include <fmt/format.h>
-
-#include "batch/sqlite.h"
+#include "batch/store/sqlite.h"
 #include "core/error.h"
 
 namespace umbsim {

@@ -32,16 +32,12 @@ Vector3d speeds(const Contact& c, const Vector3d& speed_mps) {
 
 // From a matrix along the contact's directions.
 Tangent turned(const Contact& c, const Matrix3d& give) {
+  Matrix3d directions;
+  for (int i = 0; i < 3; ++i) directions.col(i) = c.direction[i];
+  const Matrix3d pushes = directions.lazyProduct(give);
   Tangent t;
-  t.give.setZero();
-  t.push.setZero();
-  const Vector3d standing = speeds(c, Vector3d::Zero());
-  for (int i = 0; i < 3; ++i) {
-    Vector3d row = Vector3d::Zero();
-    for (int j = 0; j < 3; ++j) row += give(i, j) * c.direction[j];
-    t.give += c.direction[i] * row.transpose();
-    t.push -= give.row(i).dot(standing) * c.direction[i];
-  }
+  t.give = pushes.lazyProduct(directions.transpose());
+  t.push = -pushes.lazyProduct(speeds(c, Vector3d::Zero()));
   return t;
 }
 
@@ -69,15 +65,18 @@ Tangent sticking_tangent(const Contact& c) {
 Tangent tangent(const Contact& c, const Touch& at, const Likeness& like) {
   const double load = at.impulse[0] - like.normal * at.slip[0];
   if (load <= 0) {
-    Tangent open = turned(c, Matrix3d::Zero());
+    Tangent open;
+    open.give.setZero();
+    open.push.setZero();
     open.open = true;
     return open;
   }
   const Matrix3d C = compliance(c);
   if (c.friction <= 0) {
-    Matrix3d give = Matrix3d::Zero();
-    give(0, 0) = 1 / C(0, 0);
-    return turned(c, give);
+    Tangent t;
+    t.give = (1 / C(0, 0) * c.direction[0]) * c.direction[0].transpose();
+    t.push = -(1 / C(0, 0) * speeds(c, Vector3d::Zero())[0]) * c.direction[0];
+    return t;
   }
   const Vector2d y = at.impulse.tail<2>() - like.along * at.slip.tail<2>();
   const double cone = c.friction * load, length = y.norm();

@@ -67,12 +67,10 @@ void MultiBody::swing_legs() {
 // A tree that turns with w, joints locked, has the momenta L = I w + m c x v and P = m v + w x m c; spinning wheels add
 // theirs. What changes them in a step is weight and, seen from the turning base, gyroscopic terms, -w x L and -w x P;
 // that part of these which only turns v with the base belongs to the coordinates (integrate()).
-HeldBody MultiBody::held(double step_s, const std::array<double, 2>& target_radps,
-                         const std::array<bool, 2>& free) const {
+MultiBody::Momentum MultiBody::held_momentum(double step_s, const std::array<double, 2>& target_radps,
+                                             const std::array<bool, 2>& free) const {
   const Vector3d w = u_.head<3>();
   const Vector3d gravity = R_WB_.transpose() * gravity_mps2_;
-  HeldBody h;
-  h.all = locked_;
   const Vector3d along = w.cross(locked_.moment_kgm);
   Vector3d turning = locked_.inertia_kgm2 * w, wheels = Vector3d::Zero();
   for (int i = 0; i < 2; ++i) {
@@ -80,8 +78,17 @@ HeldBody MultiBody::held(double step_s, const std::array<double, 2>& target_radp
     turning += (wheel.spin_inertia_kgm2 * u_[6 + i]) * wheel.axis;
     if (!free[i]) wheels += (wheel.spin_inertia_kgm2 * (u_[6 + i] - target_radps[i])) * wheel.axis;
   }
-  h.turning_kgm2ps = wheels + step_s * (locked_.moment_kgm.cross(gravity) - w.cross(turning));
-  h.pushing_kgmps = step_s * (locked_.mass_kg * gravity - w.cross(along));
+  return {wheels + step_s * (locked_.moment_kgm.cross(gravity) - w.cross(turning)),
+          step_s * (locked_.mass_kg * gravity - w.cross(along))};
+}
+
+HeldBody MultiBody::held(double step_s, const std::array<double, 2>& target_radps,
+                         const std::array<bool, 2>& free) const {
+  HeldBody h;
+  h.all = locked_;
+  const Momentum momentum = held_momentum(step_s, target_radps, free);
+  h.turning_kgm2ps = momentum.turning_kgm2ps;
+  h.pushing_kgmps = momentum.pushing_kgmps;
   for (const SwivelLeg& leg : legs_) add_leg(leg, step_s, h);
   for (int i = 0; i < 2; ++i) {
     if (!free[i]) continue;

@@ -244,7 +244,7 @@ void MultiBody::integrate(double step_s) {
   set_pose(q_WB_ * q_turn, p_WB_);
   u_.segment<3>(3) = q_turn.conjugate() * Vector3d(u_.segment<3>(3));
   for (int j = 0; j < int(joints_.size()); ++j) angle_rad_[j] += step_s * u_[6 + j];
-  swing_legs();
+  if (!legs_.empty()) swing_legs();
 }
 
 // A caster's wheel, carried round by its fork.

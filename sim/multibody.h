@@ -96,6 +96,13 @@ class MultiBody {
   }
   const DofVector& velocity() const { return u_; }
   void set_velocity(const DofVector& u) { u_ = u; }
+  void change_velocity(const Eigen::Vector3d& turning_radps, const Eigen::Vector3d& moving_mps,
+                       const std::array<double, 2>& wheel_radps) {
+    u_.head<3>() += turning_radps;
+    u_.segment<3>(3) += moving_mps;
+    u_[6] = wheel_radps[0];
+    u_[7] = wheel_radps[1];
+  }
 
   /// Velocity after `step_s` under gravity and gyroscopic forces, without contacts and motors: Bullet's
   /// articulated-body algorithm. Where no caster swivels, the same from Bullet's inverse mass matrix and the gyroscopic
@@ -107,6 +114,14 @@ class MultiBody {
   /// masses that carry it (sim/held_body.cpp): the equations of motion of the same tree in closed form, for sim/rolling.cpp.
   /// `free`: wheels that are not held.
   HeldBody held(double step_s, const std::array<double, 2>& target_radps, const std::array<bool, 2>& free) const;
+  /// The same of base and held drive wheels alone.
+  struct Momentum {
+    Eigen::Vector3d turning_kgm2ps, pushing_kgmps;
+  };
+  Momentum held_momentum(double step_s, const std::array<double, 2>& target_radps,
+                         const std::array<bool, 2>& free = {}) const;
+  /// Base and drive wheels with every joint locked.
+  const MassAbout& locked() const { return locked_; }
   const std::vector<SwivelLeg>& legs() const { return legs_; }
   const Eigen::Vector3d& centre_of_mass() const { return com_B_; }  ///< of the base
 

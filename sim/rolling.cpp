@@ -47,11 +47,15 @@ bool World::State::may_roll() const {
   return true;
 }
 
+// How far a support may travel in the step.
+double World::State::way_m(double step_s, bool kicked) const {
+  const double speed_mps = body.velocity().segment<3>(3).norm();
+  return step_s * (speed_mps + step_s * options.gravity_mps2 + (kicked ? kFastestKick_mps : 0));
+}
+
 // Those that are contacts whatever the velocity without contacts will be. False where that is not known yet.
 bool World::State::find_certain_contacts(double step_s, const std::array<double, 2>& target_radps, bool kicked) {
-  const double speed_mps = body.velocity().segment<3>(3).norm();
-  const double change_mps = step_s * options.gravity_mps2 + (kicked ? kFastestKick_mps : 0);
-  find_contacts(step_s, kSpeculative_m, step_s * (speed_mps + change_mps), target_radps);
+  find_contacts(step_s, kSpeculative_m, way_m(step_s, kicked), target_radps);
   return !doubtful;
 }
 
@@ -210,29 +214,21 @@ bool World::State::none_slides(const Rolling& now) const {
   return std::none_of(now.sticking, now.sticking + contacts, [](const Sticking& s) { return s.slides; });
 }
 
-bool World::State::hold_or_slide(double step_s, const Impulse& given, Rolling& now, StickingProblem& motion) {
+// True if they do with every contact that touches sticking.
+bool World::State::hold(double step_s, const Impulse& given, Rolling& now, StickingProblem& motion) {
   let_stick(step_s, now);
   for (int round = 0; round < kRounds; ++round) {
     motion.start(now.held, given, true);
     if (!solve_rolling(now, motion)) return false;
     const Laws laws = check_sticking(now);
-    if (laws == Laws::slide) break;
+    if (laws == Laws::slide) return false;
     const Laws bounded_laws = check_bounded(motion, now);
     if (stops_change(step_s, now))
       let_stick(step_s, now);
     else if (laws == Laws::hold && bounded_laws == Laws::hold)
       return true;
   }
-  // From where the contacts were in the step before, and from where they would be if all stuck.
-  set_likeness(now);
-  Touch stuck[8];
-  for (int i = 0; i < contacts; ++i) now.tangent[i] = sticking_tangent(contact[i]);
-  touch_all(now);
-  std::copy(now.touch, now.touch + contacts, stuck);
-  take_touch_before(now);
-  if (slide(step_s, given, now, motion)) return true;
-  std::copy(stuck, stuck + contacts, now.touch);
-  return slide(step_s, given, now, motion);
+  return false;
 }
 
 // What a motor does that was supposed to be in the state of `grip`: it holds its wheel within its limit, is at its
@@ -307,7 +303,8 @@ void World::State::finish_rolling(const StickingProblem& motion, const Rolling& 
   grip.slipped = slides;
   write_impulses(now);
   report = {};
-  if (slides || !grip.all_hold()) report.outcome = SolveOutcome::newton;
+  grip.all_stick = !slides && grip.all_hold();
+  if (!grip.all_stick) report.outcome = SolveOutcome::newton;
 }
 
 bool World::State::step_rolling(double step_s, const std::array<double, 2>& target_radps, const Impulse& given,

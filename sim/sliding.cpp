@@ -84,4 +84,25 @@ void World::State::take_touch_before(Rolling& now) const {
   }
 }
 
+// What slid is supposed to go on sliding. Else Newton's method starts from where the contacts were in the step before,
+// then from where they would be if all stuck.
+bool World::State::hold_or_slide(double step_s, const Impulse& given, Rolling& now, StickingProblem& motion) {
+  const bool slid = grip.slipped;
+  const auto slide_on = [&] {
+    set_likeness(now);
+    take_touch_before(now);
+    return slide(step_s, given, now, motion);
+  };
+  if (slid && slide_on()) return true;
+  if (hold(step_s, given, now, motion)) return true;
+  Touch stuck[8];
+  for (int i = 0; i < contacts; ++i) now.tangent[i] = sticking_tangent(contact[i]);
+  set_likeness(now);
+  touch_all(now);
+  std::copy(now.touch, now.touch + contacts, stuck);
+  if (!slid && slide_on()) return true;
+  std::copy(stuck, stuck + contacts, now.touch);
+  return slide(step_s, given, now, motion);
+}
+
 }  // namespace umbsim

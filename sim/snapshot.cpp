@@ -69,12 +69,17 @@ void World::resume(const Snapshot& then, const Pose2& X_moved) {
   s.zero_angle_rad = then.zero_angle_rad;
   s.radius_factor = then.radius_factor;
   s.rest_load_n = then.rest_load_n;
-  for (std::size_t i = 0; i < s.supports.size(); ++i) s.supports[i].up_m = then.spring_up_m[i];
+  for (std::size_t i = 0; i < s.supports.size(); ++i) {
+    s.supports[i].up_m = then.spring_up_m[i];
+    s.supports[i].up_mps = 0;
+    s.supports[i].stop = 0;
+  }
   s.loads = then.loads;
   s.time_s = then.time_s;
-  s.heading_rad = then.heading_rad + X_moved.theta_rad;
+  s.set_heading(then.heading_rad + X_moved.theta_rad);
   s.stood_s = then.time_s;
   s.impulses = then.impulses;
+  s.problem.contacts = 0;  // the rows of another step
   s.grip = {};
 }
 

@@ -12,24 +12,17 @@ namespace {
 // Degrees of freedom at compile time where they are the usual ones.
 constexpr int kBase = 6;
 constexpr int kBaseAndWheels = 8;
+constexpr double kSmallTurn = 0.03;  // in a step; the series' next term is below 1e-19
 
 }  // namespace
 
 void World::State::step(double step_s, const std::array<double, 2>& target_radps) {
   const Impulse given = given_impulse(step_s);
   const bool kicked = !given.isZero(0);
-  const bool found = may_roll() && find_certain_contacts(step_s, target_radps, kicked);
-  DofVector u;
-  if (!found || !step_rolling(step_s, target_radps, given, u)) {
-    u = body.free_velocity(step_s);
-    if (kicked) u += body.inverse_mass().leftCols<6>().lazyProduct(given);
-    if (!step_with_holding_motors(step_s, target_radps, found && !kicked, u))
-      step_with_motor_rows(step_s, target_radps, u);
-  }
+  if (kicked || !is_on_plane(step_s) || !step_on_plane(step_s, target_radps)) step_anywhere(step_s, target_radps, given);
   count(report);
   note_loads(step_s);
   note_strain(step_s);
-  body.set_velocity(u);
   body.integrate(step_s);
   if (sprung) move_springs(step_s);
   move_shafts(step_s, target_radps);
@@ -39,6 +32,19 @@ void World::State::step(double step_s, const std::array<double, 2>& target_radps
   cost.simulated_s += step_s;
   check_finite();
   watch_standing();
+}
+
+void World::State::step_anywhere(double step_s, const std::array<double, 2>& target_radps, const Impulse& given) {
+  const bool kicked = !given.isZero(0);
+  const bool found = may_roll() && find_certain_contacts(step_s, target_radps, kicked);
+  DofVector u;
+  if (!found || !step_rolling(step_s, target_radps, given, u)) {
+    u = body.free_velocity(step_s);
+    if (kicked) u += body.inverse_mass().leftCols<6>().lazyProduct(given);
+    if (!step_with_holding_motors(step_s, target_radps, found && !kicked, u))
+      step_with_motor_rows(step_s, target_radps, u);
+  }
+  body.set_velocity(u);
 }
 
 // Nearly always both motors can hold their set-points: the wheel speeds are then known, and the contacts act on a
@@ -218,9 +224,24 @@ void World::State::note_loads(double step_s) {
   }
 }
 
+void World::State::set_heading(double heading) {
+  heading_rad = heading;
+  ahead_x = body.rotation()(0, 0);
+  ahead_y = body.rotation()(1, 0);
+}
+
+// By the turn since the step before: the series of its arc tangent where that is small.
 void World::State::track_heading() {
-  const double raw = std::atan2(body.rotation()(1, 0), body.rotation()(0, 0));
-  heading_rad += wrap_angle(raw - heading_rad);
+  const double x = body.rotation()(0, 0), y = body.rotation()(1, 0);
+  const double across = ahead_x * y - ahead_y * x, along = ahead_x * x + ahead_y * y;
+  if (std::abs(across) < kSmallTurn * along) {
+    const double t = across / along, t2 = t * t;
+    heading_rad += t * (1 - t2 * (1.0 / 3 - t2 * (1.0 / 5 - t2 * (1.0 / 7 - t2 * (1.0 / 9 - t2 / 11)))));
+  } else {
+    heading_rad += std::atan2(across, along);
+  }
+  ahead_x = x;
+  ahead_y = y;
 }
 
 void World::State::check_finite() const {

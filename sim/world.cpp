@@ -45,7 +45,11 @@ World::State::State(const RobotModel& r, const Drivetrain& d, const Floor& f, co
                     const std::vector<Push>& p)
     : robot(r), drivetrain(d), floor(f), options(o), pushes(p), body(r), supports(supports_of(r, body)) {
   if (supports.size() > 8) throw InputError(robot.urdf + ": more than six casters are not supported");
-  for (const Support& s : supports) sprung = sprung || s.spring.sprung();
+  for (const Support& s : supports) {
+    sprung = sprung || s.spring.sprung();
+    widest_m = std::max(widest_m, s.centre_m.norm() + s.radius_m);
+  }
+  on_balls = runs_on_balls();
   soften();
 }
 
@@ -88,16 +92,21 @@ Vector3d World::State::gravity_mps2() const {
   return {along * std::cos(floor.downhill_rad), along * std::sin(floor.downhill_rad), -down};
 }
 
-bool World::State::near_cable() const {
+// Whether a support is on a cable, would be if the gap between them were smaller by `gap_m`, or is up to `margin_m` beside.
+bool World::State::near_cable(double gap_m, double margin_m) const {
   for (const Cable& cable : floor.cables) {
+    const double off_x = body.position().x() - cable.x_m, off_y = body.position().y() - cable.y_m;
+    const double farthest_m = 2 * widest_m + cable.length_m + cable.height_m + 2 * gap_m + margin_m;
+    if (off_x * off_x + off_y * off_y > farthest_m * farthest_m) continue;
+    const double sine = std::sin(cable.direction_rad), cosine = std::cos(cable.direction_rad);
     for (const Support& s : supports) {
       const Vector3d centre = shape(s).centre_m;
-      const double across_m = std::abs((centre.x() - cable.x_m) * std::sin(cable.direction_rad) -
-                                       (centre.y() - cable.y_m) * std::cos(cable.direction_rad));
-      const double along_m = std::abs((centre.x() - cable.x_m) * std::cos(cable.direction_rad) +
-                                      (centre.y() - cable.y_m) * std::sin(cable.direction_rad));
-      const double reach_m = std::sqrt(2 * s.radius_m * cable.height_m) + kNearCable_m;
-      if (across_m < reach_m && along_m < cable.length_m / 2 + kNearCable_m) return true;
+      const double across_m = std::abs((centre.x() - cable.x_m) * sine - (centre.y() - cable.y_m) * cosine);
+      const double along_m = std::abs((centre.x() - cable.x_m) * cosine + (centre.y() - cable.y_m) * sine);
+      const double reach_m = std::sqrt((2 * s.radius_m + gap_m) * (cable.height_m + gap_m)) + margin_m;
+      // Where it is not straight across a cable a wheel touches it beside its centre.
+      const double beside_m = gap_m > 0 ? reach_m : margin_m;
+      if (across_m < reach_m && along_m < cable.length_m / 2 + beside_m) return true;
     }
   }
   return false;
@@ -118,7 +127,7 @@ void World::place(const Pose2& X_WB) {
     s.body.set_joint_angle(s.body.joints()[s.body.caster_wheel_joint(int(i))].parent, c.initial_angle_rad);
   }
   s.place_on_floor(X_WB);
-  s.heading_rad = X_WB.theta_rad;
+  s.set_heading(X_WB.theta_rad);
   s.command_radps = s.last_command_radps = s.set_point_radps = {};
   s.radius_factor = {1, 1};
   s.pull = {};
@@ -154,7 +163,7 @@ void World::command(double left_radps, double right_radps) {
 
 void World::advance(double duration_s) {
   State& s = *state_;
-  const double longest_s = s.near_cable() ? s.options.fine_step_s : s.options.step_s;
+  const double longest_s = s.near_cable(0, kNearCable_m) ? s.options.fine_step_s : s.options.step_s;
   const int steps = std::max(1, int(std::ceil(duration_s / longest_s - 1e-9)));
   for (int k = 1; k <= steps; ++k) {
     s.step(duration_s / steps, s.follow_commands(duration_s / steps, double(k) / steps));

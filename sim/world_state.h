@@ -60,6 +60,7 @@ struct Grip {
   int swivel[4]{};  // the same of each leg
   int motor[2]{};   // the same, at its torque limit; 2: in the play of its gear
   bool slipped = false;
+  bool all_stick = false;  // every support, and no row is at a bound
   std::array<Eigen::Vector3d, 8> slip = all_zero();
 
   static std::array<Eigen::Vector3d, 8> all_zero() {
@@ -100,12 +101,27 @@ struct Rolling {
   int bounded_rows = 0;
 };
 
+/// A rolling step on a plane in the making (sim/plane.cpp).
+struct OnPlane {
+  Eigen::Vector3d normal;
+  Eigen::Vector3d arm_m[8];             // of the contacts, from the base's centre of mass
+  Eigen::Vector3d middle_m, half_m;     // between the wheels' contacts, and from there to the left one
+  Eigen::Vector3d along[2], across[2];  // of the wheels
+  double rolling_m[2];
+  Eigen::Vector3d slip_mps[2];      // of the wheels' contacts, before the step
+  Eigen::Vector3d turn_m[8];        // speed of the contacts along the normal per rate of turning
+  double give[8], speed_mps[8];     // along the normal
+  Eigen::Vector3d turning, moving;  // what changes
+  double rising = 0;
+  double push_ns[8], along_ns[2], across_ns[2];
+};
+
 /// What the laws say of a solution: they hold, they are on other branches, or a contact slides that was to stick.
 enum class Laws { hold, change, slide };
 
 /// Everything that a world holds. world.cpp: the interface; step.cpp: one time step; contact_rows.cpp: what touches;
-/// rolling.cpp: the step of most moments; placing.cpp: how the robot is set down; springs.cpp: what carries it;
-/// strain.cpp: how its wheels were loaded.
+/// rolling.cpp: the step of most moments; plane.cpp: the same on a plane; placing.cpp: how the robot is set down;
+/// springs.cpp: what carries it; strain.cpp: how its wheels were loaded.
 struct World::State {
   RobotModel robot;
   Drivetrain drivetrain;
@@ -130,7 +146,10 @@ struct World::State {
   } strain[2];
   double time_s = -1;  // since place; pushes act from 0 on
   double heading_rad = 0;
-  double stood_s = 0;  // when the robot stood last, and how it was turned
+  double ahead_x = 1, ahead_y = 0;  // of the base's x axis when it was turned by that
+  bool on_balls = false;            // the robot may take the step on a plane
+  double widest_m = 0;              // how far the farthest support reaches from the base's origin
+  double stood_s = 0;               // when the robot stood last, and how it was turned
   double stood_heading_rad = 0;
 
   // Rows of the current step: each is J_i, with response M^-1 J_i^T, and a compliance on the diagonal (velocity per
@@ -158,8 +177,17 @@ struct World::State {
   double load(const Support& s) const;
   std::array<double, 2> follow_commands(double step_s, double part);
   void step(double step_s, const std::array<double, 2>& target_radps);
+  void step_anywhere(double step_s, const std::array<double, 2>& target_radps, const Impulse& given);
   bool step_rolling(double step_s, const std::array<double, 2>& target_radps, const Impulse& given, DofVector& u);
   bool may_roll() const;
+  double way_m(double step_s, bool kicked) const;
+  bool runs_on_balls() const;
+  bool is_on_plane(double step_s) const;
+  bool touch_plane(double step_s, OnPlane& now) const;
+  bool solve_on_plane(double step_s, const std::array<double, 2>& target_radps, OnPlane& now) const;
+  bool holds_on_plane(double step_s, const std::array<double, 2>& target_radps, OnPlane& now) const;
+  void write_on_plane(const OnPlane& now);
+  bool step_on_plane(double step_s, const std::array<double, 2>& target_radps);
   bool find_certain_contacts(double step_s, const std::array<double, 2>& target_radps, bool kicked);
   bool start_rolling(double step_s, Rolling& now);
   void start_contact(const Contact& c, const Rolling& now, Sticking& sticking) const;
@@ -170,6 +198,7 @@ struct World::State {
   bool shares_spring(const Contact& c) const;
   void set_springs(double step_s);
   void let_stick(double step_s, Rolling& now);
+  bool hold(double step_s, const Impulse& given, Rolling& now, StickingProblem& motion);
   bool hold_or_slide(double step_s, const Impulse& given, Rolling& now, StickingProblem& motion);
   bool slide(double step_s, const Impulse& given, Rolling& now, StickingProblem& motion);
   void set_likeness(Rolling& now) const;
@@ -228,7 +257,8 @@ struct World::State {
   void check_finite() const;
   bool stands() const;
   void watch_standing();
-  bool near_cable() const;
+  bool near_cable(double gap_m, double margin_m) const;
+  void set_heading(double heading);
   void track_heading();
 };
 

@@ -30,6 +30,27 @@ double extent_at(const Segment& s, double t) {
   return s.speed * (t - s.ramp_s / 2);
 }
 
+double part_at(const Segment& s, double time_s) { return extent_at(s, time_s - s.start_s) / extent(s); }
+
+// X_BC of X_AB and X_AC: inverse(X_AB) * X_AC with one sine and cosine.
+Pose2 seen_from(const Pose2& X_AB, const Pose2& X_AC) {
+  const double c = std::cos(X_AB.theta_rad), s = std::sin(X_AB.theta_rad);
+  const double x_m = X_AC.x_m - X_AB.x_m, y_m = X_AC.y_m - X_AB.y_m;
+  return {c * x_m + s * y_m, c * y_m - s * x_m, X_AC.theta_rad - X_AB.theta_rad};
+}
+
+struct Feed {
+  double v_mps, w_radps;
+};
+
+// `error`: of the robot, which sees the reference there.
+WheelSpeeds corrected(const Feed& feed, const Pose2& error, const DriveGeometry& geometry) {
+  const double v = feed.v_mps * std::cos(error.theta_rad) + kDriver.along * error.x_m;
+  const double w = feed.w_radps + kDriver.heading * error.theta_rad + across_gain(feed.v_mps) * error.y_m;
+  const double half_m = geometry.wheelbase_m / 2;
+  return {(v - w * half_m) / geometry.left_radius_m, (v + w * half_m) / geometry.right_radius_m};
+}
+
 }  // namespace
 
 Plan::Plan(const Course& course, Direction direction) : Plan(course, shapes_of(course, direction)) {}
@@ -62,28 +83,27 @@ int Plan::segment_at(double time_s, int hint) const {
 Reference Plan::at(double time_s, int segment_hint) const {
   const int i = segment_at(time_s, segment_hint);
   const Segment& s = segments_[i];
-  const double part = extent_at(s, time_s - s.start_s) / extent(s);
+  const double part = part_at(s, time_s);
   return {s.X_SB_start * arc(part * s.length_m, part * s.angle_rad), i};
 }
 
 WheelSpeeds follow(const Pose2& X_SR_now, const Pose2& X_SR_next, double period_s, const Pose2& X_SB,
                    const DriveGeometry& geometry) {
-  const Pose2 motion = inverse(X_SR_now) * X_SR_next;
+  const Pose2 motion = seen_from(X_SR_now, X_SR_next);
   const double turn = motion.theta_rad;
-  const double feed_v = motion.x_m / (sinc(turn / 2) * std::cos(turn / 2)) / period_s;
-  const double feed_w = turn / period_s;
-
-  const Pose2 error = inverse(X_SB) * X_SR_now;
-  const double v = feed_v * std::cos(error.theta_rad) + kDriver.along * error.x_m;
-  const double w = feed_w + kDriver.heading * error.theta_rad + across_gain(feed_v) * error.y_m;
-  const double half_m = geometry.wheelbase_m / 2;
-  return {(v - w * half_m) / geometry.left_radius_m, (v + w * half_m) / geometry.right_radius_m};
+  const double way_m = motion.x_m / sinc(turn);  // x of an arc is way sinc(turn / 2) cos(turn / 2)
+  return corrected({way_m / period_s, turn / period_s}, seen_from(X_SB, X_SR_now), geometry);
 }
 
+// As follow(), where the reference stays on one arc without its poses.
 WheelSpeeds drive(const Plan& plan, double time_s, double period_s, const Pose2& X_SB, const DriveGeometry& geometry,
                   int segment_hint) {
   const Reference now = plan.at(time_s, segment_hint);
-  return follow(now.X_SB, plan.at(time_s + period_s, now.segment).X_SB, period_s, X_SB, geometry);
+  const int next = plan.segment_at(time_s + period_s, now.segment);
+  if (next != now.segment) return follow(now.X_SB, plan.at(time_s + period_s, next).X_SB, period_s, X_SB, geometry);
+  const Segment& s = plan.segments()[std::size_t(now.segment)];
+  const double rate = (part_at(s, time_s + period_s) - part_at(s, time_s)) / period_s;
+  return corrected({rate * s.length_m, rate * s.angle_rad}, seen_from(X_SB, now.X_SB), geometry);
 }
 
 }  // namespace umbsim

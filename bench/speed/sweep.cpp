@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "batch/store_export.h"
+#include "batch/store/store_export.h"
 #include "experiment/output/figures.h"
 #include "experiment/run.h"
 #include "experiment/sweep/run_sweep.h"

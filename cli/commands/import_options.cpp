@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "exchange/import/log.h"
-#include "exchange/import/planar_track.h"
+#include "exchange/import/truth/planar_track.h"
 
 namespace umbsim {
 namespace {

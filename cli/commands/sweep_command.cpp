@@ -3,7 +3,7 @@
 #include <memory>
 #include <set>
 
-#include "batch/store_export.h"
+#include "batch/store/store_export.h"
 #include "cli/commands.h"
 #include "cli/exit.h"
 #include "cli/help/help.h"

@@ -8,8 +8,8 @@
 
 #include "core/error.h"
 #include "core/yaml_reader.h"
-#include "exchange/bag/mcap_records.h"
-#include "exchange/bag/unpacked_file.h"
+#include "exchange/bag/files/mcap_records.h"
+#include "exchange/bag/files/unpacked_file.h"
 
 namespace umbsim::exchange {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "exchange/bag/message_reader.h"
+#include "exchange/bag/messages/message_reader.h"
 #include "exchange/import/log.h"
 
 namespace umbsim::exchange {

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "exchange/bag/ros_messages.h"
 #include "exchange/bag/transforms.h"
-#include "exchange/import/planar_track.h"
+#include "exchange/import/truth/planar_track.h"
 #include "exchange/text/column_meaning.h"
 #include "exchange/text/pose_columns.h"
 

@@ -7,9 +7,9 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "exchange/bag/bag.h"
-#include "exchange/bag/mapped_file.h"
-#include "exchange/bag/mcap_records.h"
-#include "exchange/bag/unpacked_file.h"
+#include "exchange/bag/files/mapped_file.h"
+#include "exchange/bag/files/mcap_records.h"
+#include "exchange/bag/files/unpacked_file.h"
 
 namespace umbsim::exchange {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "exchange/bag/bag.h"
-#include "exchange/bag/unpacked_file.h"
+#include "exchange/bag/files/unpacked_file.h"
 
 namespace umbsim::exchange {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/error.h"
-#include "exchange/bag/unpacked_file.h"
+#include "exchange/bag/files/unpacked_file.h"
 
 namespace umbsim::exchange {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "exchange/bag/bag.h"
-#include "exchange/import/joint_states.h"
+#include "exchange/import/wheels/joint_states.h"
 
 namespace umbsim::exchange {
 

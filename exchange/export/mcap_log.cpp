@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "exchange/bag/mcap_writer.h"
+#include "exchange/bag/files/mcap_writer.h"
 #include "exchange/export/one_log.h"
 #include "exchange/export/ros_definitions.h"
 

@@ -10,9 +10,9 @@
 #include "calibration/intake/intake.h"
 #include "calibration/intake/samples.h"
 #include "core/error.h"
-#include "exchange/import/mount.h"
-#include "exchange/import/robot_numbers.h"
 #include "exchange/import/source.h"
+#include "exchange/import/truth/mount.h"
+#include "exchange/import/wheels/robot_numbers.h"
 #include "exchange/import/whole_run.h"
 
 namespace umbsim::exchange {

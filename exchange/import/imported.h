@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "exchange/import/clock_offset.h"
-#include "exchange/import/cut.h"
 #include "exchange/import/options.h"
+#include "exchange/import/runs/cut.h"
+#include "exchange/import/truth/clock_offset.h"
 #include "recording/recording.h"
 
 namespace umbsim::exchange {

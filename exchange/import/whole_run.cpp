@@ -7,10 +7,10 @@
 #include <tuple>
 
 #include "core/error.h"
-#include "exchange/import/clock_offset.h"
-#include "exchange/import/counts.h"
-#include "exchange/import/interpolate.h"
-#include "exchange/import/wheel_commands.h"
+#include "exchange/import/truth/clock_offset.h"
+#include "exchange/import/truth/interpolate.h"
+#include "exchange/import/wheels/counts.h"
+#include "exchange/import/wheels/wheel_commands.h"
 
 namespace umbsim::exchange {
 namespace {

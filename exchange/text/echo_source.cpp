@@ -6,8 +6,8 @@
 #include <array>
 
 #include "core/error.h"
-#include "exchange/import/joint_states.h"
-#include "exchange/import/planar_track.h"
+#include "exchange/import/truth/planar_track.h"
+#include "exchange/import/wheels/joint_states.h"
 #include "exchange/text/pose_columns.h"
 
 namespace umbsim::exchange {

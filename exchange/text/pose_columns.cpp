@@ -9,7 +9,7 @@
 #include <set>
 
 #include "core/error.h"
-#include "exchange/import/planar_track.h"
+#include "exchange/import/truth/planar_track.h"
 
 namespace umbsim::exchange {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "exchange/import/planar_track.h"
+#include "exchange/import/truth/planar_track.h"
 
 namespace umbsim::exchange {
 namespace {

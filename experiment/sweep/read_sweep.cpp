@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "batch/store.h"
+#include "batch/store/store.h"
 #include "experiment/output/figures.h"
 #include "experiment/scenario/settings.h"
 #include "experiment/sweep/sweep.h"

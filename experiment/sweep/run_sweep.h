@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "batch/shard.h"
-#include "batch/store.h"
+#include "batch/store/store.h"
 #include "experiment/sweep/sweep.h"
 
 namespace umbsim {

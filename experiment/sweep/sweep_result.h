@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "batch/store.h"
+#include "batch/store/store.h"
 #include "experiment/output/result_json.h"
 #include "experiment/sweep/junit.h"
 #include "experiment/sweep/sweep.h"

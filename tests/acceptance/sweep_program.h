@@ -6,7 +6,7 @@
 
 #include <csignal>
 
-#include "batch/sqlite.h"
+#include "batch/store/sqlite.h"
 #include "tests/acceptance/program.h"
 
 namespace umbsim::acceptance {

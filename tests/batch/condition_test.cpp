@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "batch/shard.h"
-#include "batch/sqlite.h"
+#include "batch/store/sqlite.h"
 #include "core/error.h"
 
 namespace umbsim {

@@ -1,15 +1,14 @@
-#include "batch/store.h"
+#include "batch/store/store.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
-#include <nlohmann/json.hpp>
-
-#include "batch/store_export.h"
+#include "batch/store/store_export.h"
 #include "core/error.h"
 
 namespace umbsim {

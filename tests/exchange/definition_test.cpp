@@ -1,12 +1,12 @@
 // Message definitions as bags carry them, and messages read by them. The bytes are written out by hand from the
 // specifications.
-#include "exchange/bag/definition.h"
+#include "exchange/bag/messages/definition.h"
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "exchange/bag/array_length.h"
-#include "exchange/bag/message_reader.h"
+#include "exchange/bag/messages/array_length.h"
+#include "exchange/bag/messages/message_reader.h"
 
 namespace umbsim::exchange {
 namespace {

@@ -1,6 +1,6 @@
 // A sweep's database, opened and exported.
-#include "batch/store.h"
-#include "batch/store_export.h"
+#include "batch/store/store.h"
+#include "batch/store/store_export.h"
 #include "tests/fuzz/target.h"
 
 namespace umbsim::fuzz {

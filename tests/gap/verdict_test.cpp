@@ -6,6 +6,8 @@
 #include <iostream>
 
 #include "core/wrapped_text.h"
+#include "effects/catalogue.h"
+#include "gap/answer/where.h"
 #include "gap/output/diagnosis_text.h"
 
 namespace umbsim::gap {
@@ -211,6 +213,12 @@ TEST(DiagnosisText, FitsATerminal) {
   EXPECT_LT(missed, toe);
   EXPECT_LT(toe, radii);
   EXPECT_NE(radii, std::string::npos) << text;
+}
+
+// A table that the compiler does not check against the catalogue.
+TEST(Pattern, EveryEffectHasOne) {
+  for (const EffectInfo& info : catalogue()) EXPECT_NE(pattern_of(info.name), "") << info.name;
+  EXPECT_EQ(pattern_of("no such effect"), "");
 }
 
 }  // namespace
