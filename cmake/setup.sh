@@ -3,7 +3,7 @@
 # Packages by use. Everything comes from Debian.
 build_packages="g++ cmake ninja-build pkg-config git libbullet-dev libeigen3-dev liburdfdom-dev libtinyxml2-dev \
 libyaml-cpp-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtbb-dev libboost-dev libsqlite3-dev libssl-dev \
-libceres-dev libfastcdr-dev libzstd-dev liblz4-dev librosbag-storage-dev"
+libceres-dev libnlopt-dev libnlopt-cxx-dev libfastcdr-dev libzstd-dev liblz4-dev librosbag-storage-dev"
 test_packages="libgtest-dev libgmock-dev chromium valgrind slurm-wlm munge sqlite3 shellcheck libmujoco-dev \
 python3"
 # Node.js for the pages, unless it is there from elsewhere: other packages of it bring npm along and conflict with Debian's.

@@ -152,6 +152,7 @@ Fit Model::none() const {
   fit.residual = e.residual;
   fit.misfit = e.misfit;
   fit.nuisance = e.mean;
+  fit.prior = e.prior;
   score(fit);
   return fit;
 }
@@ -298,6 +299,7 @@ Fit Model::fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd&
     fit.residual = held.residual;
     fit.misfit = held.misfit;
     fit.nuisance = held.mean;
+    fit.prior = held.prior;
     if (density <= d.density) {
       // Where a step leads was not where the derivatives pointed, unless it was too small to matter.
       best.linear = density > d.density - 0.5;

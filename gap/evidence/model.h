@@ -47,6 +47,7 @@ struct Fit {
   std::vector<Eigen::MatrixXd> columns;  ///< whitened derivatives at p, per run
   Eigen::VectorXd nuisance;              ///< posterior mean of the shared nuisances
   Predicted predicted;                   ///< at p
+  std::size_t prior = 0;                 ///< of the nuisances, under which the data are likelier (Nuisances)
 
   double size = 0;  ///< root mean square displacement that the last hypothesis adds to the tracks, over the noise floor
 
@@ -55,9 +56,9 @@ struct Fit {
   std::vector<Effect> effects() const;
   /// The effects with other numbers; `without`: but for those of one hypothesis.
   std::vector<Effect> effects_at(const Eigen::VectorXd& numbers, std::size_t without = std::size_t(-1)) const;
-  std::string name() const;  ///< effects joined by "+", in alphabetical order
+  std::string name() const;   ///< effects joined by "+", in alphabetical order
   bool is_kinematic() const;  ///< all of its effects do
-  bool is_local() const;     ///< one of them is at a place or a moment
+  bool is_local() const;      ///< one of them is at a place or a moment
 };
 
 /// Whitened residuals near some numbers of effects: residual - columns (p' - p), per run.
@@ -91,6 +92,8 @@ class Model {
   /// What is predicted as one when it is held out: runs of one recording, condition and direction.
   std::string condition(std::size_t run) const;
   bool tracker_is_free() const;  ///< of any recording
+  /// Whether a fit says that this engine made the recordings: their runs stray from it by less than engines differ.
+  bool same_engine(const Fit& fit) const { return fit.prior > 0; }
   double noise_floor_m() const { return noise_floor_m_; }
   bool replicated() const { return replicated_; }
   const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }

@@ -5,17 +5,17 @@
 #include <utility>
 
 #include "core/error.h"
-#include "gap/search/pattern_search.h"
+#include "gap/search/subplex.h"
 
 namespace umbsim::gap {
 namespace {
 
-constexpr double kFirstStep = 0.4;  // of a number, where a search begins
-constexpr int kHalvings = 4;
-constexpr double kClosely = 0.25;  // of first steps, near the top
-constexpr double kOneHill = 2.1;   // first steps, within which a worse start is on the way to the same top
-constexpr double kReachAgain = 2;  // steps of each number, to which a place is looked for again
-constexpr int kSearchesAgain = 2;
+constexpr double kFirstStep = 0.4;       // of a number, where a search begins
+constexpr double kLeastStep = 1.0 / 16;  // of the first
+constexpr double kClosely = 0.25;        // of first steps, near the top
+constexpr double kOneHill = 2.1;         // first steps, within which a worse start is on the way to the same top
+constexpr int kRoundsAgain = 4;
+constexpr double kReachAgain = 2;       // steps of each number, to which a place is looked for again
 constexpr int kMostTries = 200;         // simulations of the runs in the search for a place
 constexpr std::ptrdiff_t kBegunOn = 3;  // runs
 constexpr std::size_t kKeptOfFew = 3;   // starts for each local search, to be tried on all runs
@@ -53,7 +53,7 @@ Eigen::VectorXd local_search(const std::function<double(const Eigen::VectorXd&)>
     min[i] = c.hypothesis.parameters[std::size_t(i)].min;
     max[i] = c.hypothesis.parameters[std::size_t(i)].max;
   }
-  return pattern_search(density, start, reach, min, max, closely ? kHalvings - 2 : kHalvings, kMostTries);
+  return subplex(density, start, reach, min, max, closely ? 4 * kLeastStep : kLeastStep, kMostTries);
 }
 
 }  // namespace
@@ -111,47 +111,107 @@ std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& bas
   return c.shown_by.empty() ? best : local_search(density, c, best, true);
 }
 
-Eigen::VectorXd searched_again(const Model& model, const Fit& base, const Hypothesis& more,
-                               const Eigen::VectorXd& numbers) {
-  Fit others;
-  others.hypotheses.push_back(more);
-  std::vector<double> held(numbers.data(), numbers.data() + numbers.size());
-  Screen::Candidate local;
-  Eigen::Index local_at = 0;
+namespace {
+
+// One hypothesis of a fit, and where its numbers are among all.
+struct Placed {
+  const Hypothesis* hypothesis;
+  Eigen::Index at;
+  Eigen::Index count;
+};
+
+std::optional<Placed> place_of(const Fit& fit) {
   Eigen::Index at = 0;
-  for (const Hypothesis& f : base.hypotheses) {
-    const Eigen::Index n = Eigen::Index(f.parameters.size());
-    if (f.search_cost > 0) {
-      local.hypothesis = f;
-      local.start = base.p.segment(at, n);
-      local_at = at;
-    } else {
-      others.hypotheses.push_back(f);
-      held.insert(held.end(), base.p.data() + at, base.p.data() + at + n);
-    }
-    at += n;
+  for (const Hypothesis& h : fit.hypotheses) {
+    const Eigen::Index count = Eigen::Index(h.parameters.size());
+    if (h.search_cost > 0) return Placed{&h, at, count};
+    at += count;
   }
-  others.p = Eigen::Map<const Eigen::VectorXd>(held.data(), Eigen::Index(held.size()));
-  local.starts = {local.start};
-  local.reach.resize(local.start.size());
-  for (Eigen::Index i = 0; i < local.start.size(); ++i) {
-    const FreeParameter& p = local.hypothesis.parameters[std::size_t(i)];
-    local.reach[i] = kReachAgain * p.step;
-    std::vector<Eigen::VectorXd> more_starts;
-    for (const Eigen::VectorXd& start : local.starts) {
-      for (const double aside : {-1.0, 0.0, 1.0}) {
-        more_starts.push_back(start);
-        more_starts.back()[i] = std::clamp(start[i] + aside * kReachAgain * p.step, p.min, p.max);
-      }
-    }
-    local.starts = std::move(more_starts);
+  return std::nullopt;
+}
+
+Eigen::VectorXd without_place(const Eigen::VectorXd& numbers, const Placed& place) {
+  const Eigen::Index after = place.at + place.count;
+  Eigen::VectorXd others(numbers.size() - place.count);
+  others << numbers.head(place.at), numbers.tail(numbers.size() - after);
+  return others;
+}
+
+// Log density of numbers of the place, those of the other effects integrated out by their derivatives in the fit.
+std::function<double(const Eigen::VectorXd&)> density_beside_others(const Model& model, const Fit& fit,
+                                                                    const Placed& place) {
+  std::vector<double> sd;
+  for (const Hypothesis& h : fit.hypotheses) {
+    for (const FreeParameter& p : h.parameters) sd.push_back(p.prior_sd);
   }
-  local.local_searches = kSearchesAgain;
-  local.any_start = true;
-  Eigen::VectorXd start(base.p.size() + numbers.size());
-  start << base.p, numbers;
-  start.segment(local_at, local.start.size()) = *searched_start(model, others, local, 0);
-  return start;
+  const Eigen::VectorXd all_sd = Eigen::Map<const Eigen::VectorXd>(sd.data(), Eigen::Index(sd.size()));
+  const Eigen::VectorXd other_sd = without_place(all_sd, place);
+  std::vector<Eigen::MatrixXd> columns;
+  for (const Eigen::MatrixXd& c : fit.columns) {
+    columns.emplace_back(c.rows(), other_sd.size());
+    columns.back() << c.leftCols(place.at), c.rightCols(c.cols() - place.at - place.count);
+  }
+  Eigen::VectorXd shift = Eigen::VectorXd::Zero(model.nuisances() + other_sd.size());
+  shift.tail(other_sd.size()) = without_place(fit.p, place);
+  std::vector<int> chosen;
+  for (int i = 1; i <= int(shift.size()); ++i) chosen.push_back(i);
+  const std::vector<Eigen::VectorXd> sds = with_more(model.nuisance_sds(), other_sd);
+  return [=, &model, &fit](const Eigen::VectorXd& numbers) {
+    Fit moved;
+    moved.hypotheses = fit.hypotheses;
+    moved.p = fit.p;
+    moved.p.segment(place.at, place.count) = numbers;
+    try {
+      const auto residual = model.residuals(model.predict({moved.effects()}).front());
+      return evidence(model.grams(residual, columns), model.all_runs(), chosen, sds, shift).log_density;
+    } catch (const RunError&) {
+      return -1e300;
+    } catch (const InputError&) {
+      return -1e300;
+    }
+  };
+}
+
+}  // namespace
+
+Fit with_place_searched_again(const Model& model, const Fit& fit) {
+  const std::optional<Placed> place = place_of(fit);
+  if (!place || fit.hypotheses.size() < 2) return fit;
+  Eigen::VectorXd reach(place->count);
+  Eigen::VectorXd min(place->count);
+  Eigen::VectorXd max(place->count);
+  for (Eigen::Index i = 0; i < place->count; ++i) {
+    const FreeParameter& p = place->hypothesis->parameters[std::size_t(i)];
+    reach[i] = kReachAgain * p.step;
+    min[i] = p.min;
+    max[i] = p.max;
+  }
+  const Eigen::VectorXd start = fit.p.segment(place->at, place->count);
+  Eigen::VectorXd numbers = fit.p;
+  numbers.segment(place->at, place->count) =
+      subplex(density_beside_others(model, fit, *place), start, reach, min, max, kLeastStep, kMostTries);
+  const Fit again = model.fit(fit.hypotheses, numbers, kRoundsAgain);
+  return again.log_evidence > fit.log_evidence ? again : fit;
+}
+
+std::vector<Fit> with_the_best_place(const Model& model, std::vector<Fit> fits) {
+  const auto less = [](const Fit& a, const Fit& b) { return a.log_evidence < b.log_evidence; };
+  const auto best = std::max_element(fits.begin(), fits.end(), less);
+  if (best == fits.end()) return fits;
+  const std::optional<Placed> place = place_of(*best);
+  for (Fit& fit : fits) {
+    const std::optional<Placed> own = place_of(fit);
+    if (!place || !own || own->hypothesis->effect != place->hypothesis->effect || own->at != place->at) continue;
+    Eigen::VectorXd numbers = fit.p;
+    numbers.segment(own->at, own->count) = best->p.segment(place->at, place->count);
+    if (numbers == fit.p) continue;
+    Fit again = with_place_searched_again(model, model.fit(fit.hypotheses, numbers, kRoundsAgain));
+    if (again.log_evidence <= fit.log_evidence) continue;
+    again.size = fit.size;
+    again.seen = fit.seen;
+    fit = std::move(again);
+  }
+  return fits;
 }
 
 }  // namespace umbsim::gap

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "gap/search/search.h"
 
@@ -23,10 +24,12 @@ double keep_best_starts(const Model& model, const Fit& base, Screen::Candidate& 
 std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& base, Screen::Candidate candidate,
                                               double least);
 
-/// Where a fit of `base` with one effect more begins, if a place or moment in `base` was fitted to make up for that
-/// effect, too: its numbers are searched for anew beside the other, about where they were. `base` holds one such
-/// hypothesis; `numbers`: of the effect that comes on top, behind which the rest of `base` stays as it is.
-Eigen::VectorXd searched_again(const Model& model, const Fit& base, const Hypothesis& more,
-                               const Eigen::VectorXd& numbers);
+/// A fit with its place or moment searched for anew about where it is, the numbers of all other effects free: while it
+/// was found without them it made up for them. The fit itself where it holds no place, or none does better.
+Fit with_place_searched_again(const Model& model, const Fit& fit);
+
+/// Fits that hold one place each, all of them with the place of the best where that makes them better: each search for
+/// a place ends at some other top, and which effect stands beside it must not hang on that.
+std::vector<Fit> with_the_best_place(const Model& model, std::vector<Fit> fits);
 
 }  // namespace umbsim::gap

@@ -24,7 +24,6 @@ constexpr int kSwaps = 2;
 constexpr double kAnotherVariant = 3;   // log evidence by which a second hypothesis of one effect may promise less
 constexpr double kTwins = 6;            // squared standard deviations between two fits' tracks, all readings
 constexpr double kRivals = 0.8;         // share of an effect's gain that the screen must see in another in its place
-constexpr double kHeld = 0.5;           // of what the screen saw of an effect beside a place, that its fit must hold
 constexpr double kFarBehind = 20;       // log evidence
 constexpr double kHint = 0.02;          // of what explains all, below which nothing else is looked at,
 constexpr double kLocalHint = 0.25;     // and the same of places and moments, which take long
@@ -95,10 +94,8 @@ class Search {
                            screen_.near(base, c.hypothesis));
       // A place may have been fitted so that it makes up for what is only now beside it. What takes part in the contact
       // would mend how another engine's robot is shaken there.
-      const bool less_than_seen = fit.log_evidence < base.log_evidence + kHeld * c.gain;
-      if (base.is_local() && is_kinematic(c.hypothesis.effect) && c.gain > thresholds_.addition && less_than_seen) {
-        Fit again = model_.fit(hypotheses, searched_again(model_, base, c.hypothesis, *from), kFewerRounds);
-        if (again.log_evidence > fit.log_evidence) fit = std::move(again);
+      if (base.is_local() && is_kinematic(c.hypothesis.effect) && c.gain > thresholds_.addition) {
+        fit = with_place_searched_again(model_, fit);
       }
       fit.size = displacement_m(fit.predicted.tracks, base.predicted.tracks) / model_.noise_floor_m();
       fit.seen = std::sqrt(seen_between(model_, base, fit) / model_.rows());
@@ -214,6 +211,7 @@ class Search {
     std::size_t fitted = 0;
     std::size_t local_searches = 0;
     std::map<std::string, double> tried_gain;
+    std::vector<Fit> found;
     for (const Screen::Candidate& c : screen_.on_top_of(base)) {
       if (fitted == kAdditionsFitted) break;
       const auto [first, fresh] = tried_gain.try_emplace(c.hypothesis.effect, c.gain);
@@ -228,12 +226,15 @@ class Search {
       auto fit = tried(base, c, held + kPartOfNeeded * needed.local);
       if (!fit) continue;
       ++fitted;
-      if (!pays(model_, base, *fit, needed)) {
-        keep_doubtful(base, needed, std::move(*fit));
+      found.push_back(std::move(*fit));
+    }
+    for (Fit& fit : base.is_local() ? with_the_best_place(model_, std::move(found)) : found) {
+      if (!pays(model_, base, fit, needed)) {
+        keep_doubtful(base, needed, std::move(fit));
         continue;
       }
-      fits_.push_back(*fit);
-      paying.push_back(std::move(*fit));
+      fits_.push_back(fit);
+      paying.push_back(std::move(fit));
     }
   }
 

@@ -119,7 +119,7 @@ TEST(WeakCause, MotorsThatLagByFifteenMilliseconds) {
 // millimetres.
 // Does not hold at present: of -1e-3 the interval is -0.93e-3 to -0.68e-3, since contacts that open are solved in the
 // robot's own coordinates or since the search changed; not found out yet.
-TEST(WeakCause, DISABLED_RadiiBesideALift) {
+TEST(WeakCause, RadiiBesideALift) {
   const Effect lift =
       effect("wheel_lift", {{"x_m", 2 + 0.17 * std::cos(0.3)}, {"y_m", 0.17 * std::sin(0.3)}, {"length_m", 0.045}});
   const Subject p(campaign({effect("wheel_radius_scale", {{"relative", -1e-3}}), lift}, 81));
