@@ -53,11 +53,13 @@ TEST(EveryEffect, NeutralIsNominalToTheLastBit) {
 TEST(EveryEffect, ScenarioRunsQuicklyAndIsSolved) {
   for (const EffectInfo& info : catalogue()) {
     const Scenario s = shipped("effects/" + info.name);
+    const std::clock_t begun = std::clock();
     const ExperimentResult r = run_experiment(s, 1);
+    const double processor_s = double(std::clock() - begun) / CLOCKS_PER_SEC;  // a busy machine's clock says nothing
     std::cout << fmt::format("{:<24} {:6.3f} s, {} steps, {} sliding, {} fallbacks; cw {}; ccw {}\n", info.name,
-                             r.wall_s, r.cost.steps, r.cost.newton_steps, r.cost.solver_fallbacks, text(r.cw.errors[0]),
+                             processor_s, r.cost.steps, r.cost.newton_steps, r.cost.solver_fallbacks, text(r.cw.errors[0]),
                              text(r.ccw.errors[0]));
-    EXPECT_LT(r.wall_s, kLongest_s) << info.name;
+    EXPECT_LT(processor_s, kLongest_s) << info.name;
     EXPECT_LE(r.cost.solver_fallbacks, kFallbacks) << info.name;
     const auto has = [&](const Effect& e) { return e.info->name == info.name; };
     EXPECT_TRUE(std::any_of(s.effects.begin(), s.effects.end(), has)) << info.name << " is not in its own scenario";
