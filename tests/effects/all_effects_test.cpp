@@ -1,5 +1,6 @@
 // What holds for every effect: neutral is nominal, the shipped scenario runs quickly, effects combine.
 #include <cstring>
+#include <ctime>
 #include <iostream>
 
 #include "tests/effects/drives.h"
@@ -57,8 +58,8 @@ TEST(EveryEffect, ScenarioRunsQuicklyAndIsSolved) {
     const ExperimentResult r = run_experiment(s, 1);
     const double processor_s = double(std::clock() - begun) / CLOCKS_PER_SEC;  // a busy machine's clock says nothing
     std::cout << fmt::format("{:<24} {:6.3f} s, {} steps, {} sliding, {} fallbacks; cw {}; ccw {}\n", info.name,
-                             processor_s, r.cost.steps, r.cost.newton_steps, r.cost.solver_fallbacks, text(r.cw.errors[0]),
-                             text(r.ccw.errors[0]));
+                             processor_s, r.cost.steps, r.cost.newton_steps, r.cost.solver_fallbacks,
+                             text(r.cw.errors[0]), text(r.ccw.errors[0]));
     EXPECT_LT(processor_s, kLongest_s) << info.name;
     EXPECT_LE(r.cost.solver_fallbacks, kFallbacks) << info.name;
     const auto has = [&](const Effect& e) { return e.info->name == info.name; };
