@@ -42,6 +42,13 @@ struct Work {
   double explained_by(const Fit& fit) const { return fit.log_evidence - none.log_evidence; }
 };
 
+void put_none_first(const Thresholds& t, Diagnosis& d) {
+  const auto at = std::find_if(d.causes.begin(), d.causes.end(), [](const Cause& c) { return c.name == "none"; });
+  std::rotate(d.causes.begin(), at, at + 1);
+  double& score = d.causes.front().score;
+  score = std::max(score, d.causes.size() > 1 ? d.causes[1].score + t.effect_cost : 0);
+}
+
 void detect(const Work& w, Diagnosis& d) {
   const Cause& front = d.causes.front();
   const double named = front.name == "none" ? 0 : front.score;
@@ -50,11 +57,7 @@ void detect(const Work& w, Diagnosis& d) {
   const double enough = w.model.same_engine(front.fit) ? enough_to_detect(names_of(front.fit), t) : t.detect;
   d.detected = not_named > t.detect || named > enough;
   d.p_value = chi_squared_tail(2 * std::max({0.0, named, not_named}), 2);
-  if (d.detected) return;
-  const auto at = std::find_if(d.causes.begin(), d.causes.end(), [](const Cause& c) { return c.name == "none"; });
-  std::rotate(d.causes.begin(), at, at + 1);
-  double& score = d.causes.front().score;
-  score = std::max(score, d.causes.size() > 1 ? d.causes[1].score + w.thresholds.effect_cost : 0);
+  if (!d.detected) put_none_first(t, d);
 }
 
 // What is named in place of unknown, ahead of what the search found best.
@@ -132,11 +135,51 @@ void name_what_foretells(const Work& w, Fit& best, Diagnosis& d) {
   put_first(best, 2 * kAhead, d);
 }
 
+// Whether another engine made recordings whose tracks stray by no more than noise makes them. What contacts do is no
+// gap then: they differ from engine to engine.
+bool hidden_in_noise(const Work& w, const Fit& fit, const Closure& closure) {
+  return !w.model.same_engine(fit) && closure.before_mm > 0 && closure.before_mm <= closure.most_noise_mm;
+}
+
+// The fit of what rolls, and of what counts show.
+Fit without_contacts(const Model& model, Fit fit) {
+  const auto contact = [](const Hypothesis& h) {
+    return !is_kinematic(h.effect) && !shows_in_counts(find_effect(h.effect));
+  };
+  for (;;) {
+    const auto at = std::find_if(fit.hypotheses.begin(), fit.hypotheses.end(), contact);
+    if (at == fit.hypotheses.end()) return fit;
+    fit = model.without(fit, std::size_t(at - fit.hypotheses.begin()));
+  }
+}
+
+// Leaves what contacts do within the noise of another engine's recordings out. Whether anything stays.
+bool name_beside_noise(const Work& w, Fit& best, Diagnosis& d) {
+  const std::size_t effects = best.hypotheses.size();
+  best = without_contacts(w.model, best);
+  if (best.hypotheses.size() < effects || effects == 0)
+    d.limits.push_back(
+        "no track strays by more than noise makes it: how engines' contacts differ is not told from an effect");
+  if (best.hypotheses.empty()) {
+    d.detected = d.unexplained = false;
+    d.p_value = 1;
+    put_none_first(w.thresholds, d);
+    return false;
+  }
+  if (best.hypotheses.size() < effects) {
+    put_first(best, 2 * kAhead, d);
+    d.closure = held_out_closure(w.model, best);
+  }
+  return true;
+}
+
 // Causes, unknown among them, and the twin. `left`: by the best of them, which may become another.
 void explain(const Work& w, const LeftUnexplained& left, Fit& best, Diagnosis& d) {
   const Thresholds& t = w.thresholds;
   d.closure = held_out_closure(w.model, best);
-  const bool unknown = !worth_more_than_rest(w.model, best, d.closure) &&
+  const bool hidden = hidden_in_noise(w, best, d.closure);
+  if (hidden && !name_beside_noise(w, best, d)) return;
+  const bool unknown = !hidden && !worth_more_than_rest(w.model, best, d.closure) &&
                        is_unknown(w.model, best, w.explained_by(best), d.closure, left, w.left_by_none, t) &&
                        !named_without_fit(w, left, best, d);
   add_unknown(w, best, unknown, left.all(), d);
