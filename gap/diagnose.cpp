@@ -138,7 +138,9 @@ void name_what_foretells(const Work& w, Fit& best, Diagnosis& d) {
 // Whether another engine made recordings whose tracks stray by no more than noise makes them. What contacts do is no
 // gap then: they differ from engine to engine.
 bool hidden_in_noise(const Work& w, const Fit& fit, const Closure& closure) {
-  return !w.model.same_engine(fit) && closure.before_mm > 0 && closure.before_mm <= closure.most_noise_mm;
+  if (w.model.same_engine(fit) || closure.before_mm == 0 || closure.before_mm > closure.most_noise_mm) return false;
+  // What comes again wherever runs pass the same places is the floor's.
+  return w.excluded.count("uneven_floor") > 0 || !may_be_uneven_floor(w.model, w.none);
 }
 
 // The fit of what rolls, and of what counts show.
@@ -154,10 +156,9 @@ Fit without_contacts(const Model& model, Fit fit) {
 }
 
 // Leaves what contacts do within the noise of another engine's recordings out. Whether anything stays.
-bool name_beside_noise(const Work& w, const LeftUnexplained& left, Fit& best, Diagnosis& d) {
+bool name_beside_noise(const Work& w, Fit& best, Diagnosis& d) {
   const std::size_t effects = best.hypotheses.size();
   best = without_contacts(w.model, best);
-  if (best.hypotheses.empty() && named_without_fit(w, left, best, d)) return true;
   if (best.hypotheses.size() < effects || effects == 0)
     d.limits.push_back(
         "no track strays by more than noise makes it: how engines' contacts differ is not told from an effect");
@@ -179,7 +180,7 @@ void explain(const Work& w, const LeftUnexplained& left, Fit& best, Diagnosis& d
   const Thresholds& t = w.thresholds;
   d.closure = held_out_closure(w.model, best);
   const bool hidden = hidden_in_noise(w, best, d.closure);
-  if (hidden && !name_beside_noise(w, left, best, d)) return;
+  if (hidden && !name_beside_noise(w, best, d)) return;
   const bool unknown = !hidden && !worth_more_than_rest(w.model, best, d.closure) &&
                        is_unknown(w.model, best, w.explained_by(best), d.closure, left, w.left_by_none, t) &&
                        !named_without_fit(w, left, best, d);
