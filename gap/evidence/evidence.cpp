@@ -60,6 +60,12 @@ Evidence evidence(const std::vector<RunGram>& grams, const std::vector<std::size
   return e;
 }
 
+std::vector<int> first_columns(Eigen::Index n) {
+  std::vector<int> columns;
+  for (int i = 1; i <= int(n); ++i) columns.push_back(i);
+  return columns;
+}
+
 std::vector<Eigen::VectorXd> with_more(std::vector<Eigen::VectorXd> prior_sds, const Eigen::VectorXd& more) {
   for (Eigen::VectorXd& sd : prior_sds) {
     const Eigen::Index n = sd.size();

@@ -33,6 +33,9 @@ Evidence evidence(const std::vector<RunGram>& grams, const std::vector<std::size
                   const std::vector<int>& columns, const std::vector<Eigen::VectorXd>& prior_sds,
                   const Eigen::VectorXd& shift = {});
 
+/// Indices of the first `n` columns of a gram, the residual not counted.
+std::vector<int> first_columns(Eigen::Index n);
+
 /// Each prior with the same further standard deviations behind it.
 std::vector<Eigen::VectorXd> with_more(std::vector<Eigen::VectorXd> prior_sds, const Eigen::VectorXd& more);
 

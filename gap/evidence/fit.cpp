@@ -12,27 +12,6 @@ namespace umbsim::gap {
 namespace {
 
 constexpr int kRoundsAgain = 2;
-constexpr double kBendShare = 0.01;  // of a step, squared, by which it may end elsewhere than its derivatives foretold,
-constexpr double kBend = 1;          // or as much in squared standard deviations of the tracks
-
-std::vector<int> first_columns(Eigen::Index n) {
-  std::vector<int> columns;
-  for (int i = 1; i <= n; ++i) columns.push_back(i);
-  return columns;
-}
-
-std::vector<FreeParameter> free_parameters(const std::vector<Hypothesis>& hypotheses) {
-  std::vector<FreeParameter> free;
-  for (const Hypothesis& f : hypotheses) free.insert(free.end(), f.parameters.begin(), f.parameters.end());
-  return free;
-}
-
-Eigen::VectorXd prior_sd(const std::vector<Hypothesis>& hypotheses) {
-  const std::vector<FreeParameter> free = free_parameters(hypotheses);
-  Eigen::VectorXd sd(Eigen::Index(free.size()));
-  for (Eigen::Index i = 0; i < sd.size(); ++i) sd[i] = free[std::size_t(i)].prior_sd;
-  return sd;
-}
 
 // The derivatives are taken at the fitted numbers: as a shift of the linear model's parameters.
 Eigen::VectorXd shifted(int nuisances, const Eigen::VectorXd& p) {
@@ -61,7 +40,7 @@ double Model::log_chance(const std::vector<Effect>& effects) const {
 
 double Model::log_evidence(const Fit& fit, const std::vector<std::size_t>& runs) const {
   const Eigen::VectorXd shift = shifted(nuisances(), fit.p);
-  const Eigen::VectorXd s = prior_sd(fit.hypotheses);
+  const Eigen::VectorXd s = prior_sd_of(fit.hypotheses);
   const Evidence e = evidence(fit.grams, runs, first_columns(shift.size()), with_more(nuisance_sds(), s), shift);
   double cost = -fit.log_chance;
   for (const Hypothesis& f : fit.hypotheses) cost += f.search_cost + f.variant_cost;
@@ -84,7 +63,7 @@ double Model::log_evidence(const Fit& fit, const std::vector<std::size_t>& runs)
 
 Eigen::VectorXd Model::numbers_on(const Fit& fit, const std::vector<std::size_t>& runs) const {
   const Eigen::VectorXd shift = shifted(nuisances(), fit.p);
-  const Eigen::VectorXd s = prior_sd(fit.hypotheses);
+  const Eigen::VectorXd s = prior_sd_of(fit.hypotheses);
   const Evidence e = evidence(fit.grams, runs, first_columns(shift.size()), with_more(nuisance_sds(), s), shift);
   Fit other = fit;
   other.p = e.mean.tail(fit.p.size());
@@ -185,32 +164,6 @@ Linearisation Model::linearised(const Fit& fit) const {
   return {fit.p, residuals(fit.predicted), columns(fit.predicted, predict(sets), steps)};
 }
 
-// A step that ended elsewhere than foretold says how the derivatives along it really were (Broyden 1965). `scale`: of
-// the numbers.
-void Linearisation::learn(const Eigen::VectorXd& to, const std::vector<Eigen::VectorXd>& there,
-                          const Eigen::VectorXd& scale) {
-  const Eigen::VectorXd step = to - p;
-  const Eigen::VectorXd direction = step.cwiseQuotient(scale.cwiseAbs2());
-  const double length2 = step.dot(direction);
-  for (std::size_t r = 0; r < columns.size(); ++r) {
-    const Eigen::VectorXd missed = residual[r] - there[r] - columns[r] * step;
-    columns[r] += missed * (direction / length2).transpose();
-  }
-  p = to;
-  residual = there;
-}
-
-double Linearisation::share_missed(const Eigen::VectorXd& to, const std::vector<Eigen::VectorXd>& there) const {
-  double moved = 0;
-  double missed = 0;
-  for (std::size_t r = 0; r < columns.size(); ++r) {
-    const Eigen::VectorXd by = columns[r] * (to - p);
-    moved += by.squaredNorm();
-    missed += (residual[r] - by - there[r]).squaredNorm();
-  }
-  return missed / (kBend / kBendShare + moved);
-}
-
 namespace {
 
 // One descent: numbers, the best of them so far, and what is known of the derivatives.
@@ -252,7 +205,7 @@ Fit Model::fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd&
   const std::vector<std::size_t> runs = some.empty() ? all_runs() : some;
   const std::vector<FreeParameter> free = free_parameters(hypotheses);
   const Eigen::Index m = Eigen::Index(free.size());
-  const Eigen::VectorXd s = prior_sd(hypotheses);
+  const Eigen::VectorXd s = prior_sd_of(hypotheses);
   const std::vector<Eigen::VectorXd> sds = with_more(nuisance_sds(), s);
   const bool from_zero =
       std::all_of(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& f) { return f.from_zero; });
@@ -278,9 +231,9 @@ Fit Model::fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd&
     try {
       fit.predicted = predict({fit.effects()}).front();
       const std::vector<Eigen::VectorXd> there = residuals(fit.predicted);
-      if (!d.known || (round == 0 && d.known->share_missed(fit.p, there) > kBendShare)) {
+      if (!d.known || (round == 0 && !d.known->foretold(fit.p, there))) {
         taken_here(fit);
-      } else if (d.known->share_missed(fit.p, there) > kBendShare) {
+      } else if (!d.known->foretold(fit.p, there)) {
         d.known->learn(fit.p, there, s);
         d.learned = true;
       }

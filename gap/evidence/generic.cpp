@@ -125,12 +125,6 @@ Eigen::VectorXd patterns_sd() {
   return sd;
 }
 
-std::vector<int> first_columns(Eigen::Index n) {
-  std::vector<int> columns;
-  for (int i = 1; i <= int(n); ++i) columns.push_back(i);
-  return columns;
-}
-
 // Patterns one after another, as long as the next one pays for having been picked among all. `sd`: of the nuisances and
 // of the patterns, where there are none.
 double shared_density(const Model& model, const std::vector<RunGram>& grams, Eigen::VectorXd sd) {

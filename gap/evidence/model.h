@@ -57,7 +57,7 @@ struct Fit {
   /// The effects with other numbers; `without`: but for those of one hypothesis.
   std::vector<Effect> effects_at(const Eigen::VectorXd& numbers, std::size_t without = std::size_t(-1)) const;
   std::string name() const;   ///< effects joined by "+", in alphabetical order
-  bool is_kinematic() const;  ///< all of its effects do
+  bool is_kinematic() const;  ///< all of its effects are
   bool is_local() const;      ///< one of them is at a place or a moment
 };
 
@@ -67,8 +67,9 @@ struct Linearisation {
   std::vector<Eigen::VectorXd> residual;
   std::vector<Eigen::MatrixXd> columns;
 
-  /// Squares by which the residuals at `to` are not where the derivatives put them, over those of the step.
-  double share_missed(const Eigen::VectorXd& to, const std::vector<Eigen::VectorXd>& there) const;
+  /// Whether the residuals at `to` are where the derivatives put them, but for a small share of the step or of the
+  /// noise.
+  bool foretold(const Eigen::VectorXd& to, const std::vector<Eigen::VectorXd>& there) const;
   /// Goes to `to`, and makes the derivatives along the step what it showed.
   void learn(const Eigen::VectorXd& to, const std::vector<Eigen::VectorXd>& there, const Eigen::VectorXd& scale);
 };

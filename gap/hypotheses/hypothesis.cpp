@@ -43,6 +43,19 @@ Eigen::VectorXd start_of(const Hypothesis& hypothesis) {
   return p;
 }
 
+std::vector<FreeParameter> free_parameters(const std::vector<Hypothesis>& hypotheses) {
+  std::vector<FreeParameter> free;
+  for (const Hypothesis& f : hypotheses) free.insert(free.end(), f.parameters.begin(), f.parameters.end());
+  return free;
+}
+
+Eigen::VectorXd prior_sd_of(const std::vector<Hypothesis>& hypotheses) {
+  const std::vector<FreeParameter> free = free_parameters(hypotheses);
+  Eigen::VectorXd sd(Eigen::Index(free.size()));
+  for (Eigen::Index i = 0; i < sd.size(); ++i) sd[i] = free[std::size_t(i)].prior_sd;
+  return sd;
+}
+
 bool is_kinematic(const std::string& effect) {
   static const std::set<std::string> effects{
       "wheel_radius_scale", "wheel_radius_difference", "wheelbase",       "tyre_compliance", "wear",

@@ -1,10 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "effects/catalogue.h"
 
@@ -29,8 +28,8 @@ struct Hypothesis {
   std::function<EffectValues(const Eigen::VectorXd& p)> values;
   /// Further effects that go with it and are not credited: how softly the tyres grip while they scrub.
   std::function<std::vector<Effect>(const Eigen::VectorXd& p)> with;
-  bool from_zero = true;  ///< acts in proportion near zero; false: fitted from its start, by repeated simulation
-  double search_cost = 0; ///< log of the number of places or moments that were looked at
+  bool from_zero = true;    ///< acts in proportion near zero; false: fitted from its start, by repeated simulation
+  double search_cost = 0;   ///< log of the number of places or moments that were looked at
   double variant_cost = 0;  ///< log of the number of hypotheses of the same effect, which are all tried, or of a prior
   bool shape_unknown = false;  ///< its numbers say how strong it is, not where: it is named, and added to no twin
 };
@@ -42,6 +41,10 @@ Effect effect_of(const Hypothesis& hypothesis, const Eigen::VectorXd& p);
 
 /// Where the fit of its numbers begins.
 Eigen::VectorXd start_of(const Hypothesis& hypothesis);
+
+/// The free numbers of all hypotheses in order, and their prior standard deviations.
+std::vector<FreeParameter> free_parameters(const std::vector<Hypothesis>& hypotheses);
+Eigen::VectorXd prior_sd_of(const std::vector<Hypothesis>& hypotheses);
 
 /// Whether counts against commands, or how the robot was driven and read, show the effect; others only move the robot.
 bool shows_in_counts(const EffectInfo& info);

@@ -140,12 +140,7 @@ Eigen::VectorXd without_place(const Eigen::VectorXd& numbers, const Placed& plac
 // Log density of numbers of the place, those of the other effects integrated out by their derivatives in the fit.
 std::function<double(const Eigen::VectorXd&)> density_beside_others(const Model& model, const Fit& fit,
                                                                     const Placed& place) {
-  std::vector<double> sd;
-  for (const Hypothesis& h : fit.hypotheses) {
-    for (const FreeParameter& p : h.parameters) sd.push_back(p.prior_sd);
-  }
-  const Eigen::VectorXd all_sd = Eigen::Map<const Eigen::VectorXd>(sd.data(), Eigen::Index(sd.size()));
-  const Eigen::VectorXd other_sd = without_place(all_sd, place);
+  const Eigen::VectorXd other_sd = without_place(prior_sd_of(fit.hypotheses), place);
   std::vector<Eigen::MatrixXd> columns;
   for (const Eigen::MatrixXd& c : fit.columns) {
     columns.emplace_back(c.rows(), other_sd.size());
@@ -153,8 +148,7 @@ std::function<double(const Eigen::VectorXd&)> density_beside_others(const Model&
   }
   Eigen::VectorXd shift = Eigen::VectorXd::Zero(model.nuisances() + other_sd.size());
   shift.tail(other_sd.size()) = without_place(fit.p, place);
-  std::vector<int> chosen;
-  for (int i = 1; i <= int(shift.size()); ++i) chosen.push_back(i);
+  const std::vector<int> chosen = first_columns(shift.size());
   const std::vector<Eigen::VectorXd> sds = with_more(model.nuisance_sds(), other_sd);
   return [=, &model, &fit](const Eigen::VectorXd& numbers) {
     Fit moved;

@@ -189,12 +189,7 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
   const int fixed = model_.nuisances() + int(own);
   std::vector<int> base;
   for (int i = 1; i <= fixed; ++i) base.push_back(i);
-  Eigen::VectorXd own_sd(own);
-  Eigen::Index at = 0;
-  for (const Hypothesis& f : fit.hypotheses) {
-    for (const FreeParameter& p : f.parameters) own_sd[at++] = p.prior_sd;
-  }
-  const std::vector<Eigen::VectorXd> base_sds = with_more(model_.nuisance_sds(), own_sd);
+  const std::vector<Eigen::VectorXd> base_sds = with_more(model_.nuisance_sds(), prior_sd_of(fit.hypotheses));
   Eigen::VectorXd shift = Eigen::VectorXd::Zero(fixed);
   shift.tail(own) = fit.p;
   const auto runs = model_.all_runs();
