@@ -143,10 +143,10 @@ bool hidden_in_noise(const Work& w, const Fit& fit, const Closure& closure) {
   return w.excluded.count("uneven_floor") > 0 || !may_be_uneven_floor(w.model, w.none);
 }
 
-// The fit of what rolls, and of what counts show.
+// The fit of what rolls, of what happens at a place or a moment, and of what counts show.
 Fit without_contacts(const Model& model, Fit fit) {
   const auto contact = [](const Hypothesis& h) {
-    return !is_kinematic(h.effect) && !shows_in_counts(find_effect(h.effect));
+    return !is_kinematic(h.effect) && h.search_cost == 0 && !shows_in_counts(find_effect(h.effect));
   };
   for (;;) {
     const auto at = std::find_if(fit.hypotheses.begin(), fit.hypotheses.end(), contact);
@@ -182,7 +182,7 @@ void explain(const Work& w, const LeftUnexplained& left, Fit& best, Diagnosis& d
   const bool hidden = hidden_in_noise(w, best, d.closure);
   if (hidden && !name_beside_noise(w, best, d)) return;
   const bool unknown = !hidden && !worth_more_than_rest(w.model, best, d.closure) &&
-                       is_unknown(w.model, best, w.explained_by(best), d.closure, left, w.left_by_none, t) &&
+                       is_unknown(best, w.explained_by(best), d.closure, left, w.left_by_none, t) &&
                        !named_without_fit(w, left, best, d);
   add_unknown(w, best, unknown, left.all(), d);
   d.left_over = describe_left_over(w.model, best);

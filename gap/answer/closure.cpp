@@ -93,7 +93,7 @@ Closure held_out_closure(const Model& model, const Fit& fit) {
   double before_sum_m2 = 0;
   for (const double b : before) before_sum_m2 += b;
   // Within the noise there is no gap to close, nor one that a cause between commands and ticks could close.
-  const double most_noise_m2 = most_by_noise(noise);
+  const double most_noise_m2 = most_by_noise(model.same_engine(fit) ? noise : noise_misfits_m2(model, kDraws, true));
   closure.known = before_sum_m2 > most_noise_m2 && before != after;
   closure.most_noise_mm = 1000 * std::sqrt(most_noise_m2 / double(runs));
   closure.fraction = closure.known ? fraction(model.all_runs()) : 0;

@@ -29,11 +29,13 @@ void add_nothing(Closure& closure) {
 }
 
 // What an explanation leaves may be an error of its model: of a contact's, which differs from engine to engine, or of a
-// tracker's whose frame and clock are free. A place or a moment mends a part of any misfit.
+// tracker's whose frame and clock are free. What moves no pose beyond noise, and beyond what engines differ by, leads
+// nowhere. A place or a moment mends a part of any misfit.
 bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure) {
-  if (!closure.known || fit.is_local()) return false;
-  if (!model.tracker_is_free()) return !fit.is_kinematic() && closure.together().mm > closure.after_mm;
-  return closure.after_mm <= closure.most_noise_mm || closure.together().mm > closure.after_mm;
+  if (!closure.known) return false;
+  if (!model.same_engine(fit) && closure.after_mm <= closure.most_noise_mm) return true;
+  if (fit.is_local() || (fit.is_kinematic() && !model.tracker_is_free())) return false;
+  return closure.together().mm > closure.after_mm;
 }
 
 void keep_what_foretells(const Model& model, Fit& twin, Closure& closure) {

@@ -93,7 +93,21 @@ Model::Model(const Campaign& campaign, Simulator simulator, const Scatter& scatt
   std::vector<NoiseModel> of_runs;
   for (std::size_t r = 0; r < all.runs.size(); ++r) of_runs.push_back(noise(r));
   noise_floor_m_ = gap::noise_floor_m(nominal_, of_runs);
-  for (std::size_t r = 0; r < all.runs.size(); ++r) {
+  observe();
+  if (none().prior > 0 || nuisances_.shared_sds.size() < 2) return;
+  // Another engine made them. Its contacts give way for a moment where a robot speeds up, stops and turns.
+  for (NoiseEstimate& estimate : noises_) {
+    estimate.noise.position_sd_m = std::hypot(estimate.noise.position_sd_m, scatter_.reading_m);
+    estimate.noise.heading_sd_rad = std::hypot(estimate.noise.heading_sd_rad, scatter_.reading_rad);
+  }
+  observe();
+  nuisances_.shared_sds.resize(1);
+}
+
+// The tracks as noise leaves them to be seen, and what is fitted always.
+void Model::observe() {
+  filters_.clear();
+  for (std::size_t r = 0; r < recording().runs.size(); ++r) {
     filters_.emplace_back(nominal_.tracks[r], nominal_.rolled_m[r], noise(r), nominal_.seen[r], nominal_.velocity[r]);
   }
   const Drive drive = [this](const std::vector<Effect>& effects) { return predict({effects}).front().tracks; };

@@ -108,6 +108,9 @@ class Model {
   const Eigen::VectorXd& nuisance_sd() const { return nuisances_.shared_sds.front(); }
   const std::vector<Eigen::VectorXd>& nuisance_sds() const { return nuisances_.shared_sds; }
   const Eigen::VectorXd& unexplained_sd() const { return nuisances_.unexplained_sd; }
+  /// What other engines make of a run: track errors, as many as nuisances(), and how large each is.
+  const Eigen::MatrixXd& engine_tracks(std::size_t run) const { return nuisances_.tracks[run]; }
+  const Eigen::VectorXd& engine_sd() const { return nuisances_.engine_sd; }
   /// Whitened columns of a run's own nuisances; the first two are the radii of its wheels.
   const Eigen::MatrixXd& own_columns(std::size_t run) const { return nuisances_.own[run]; }
   /// Of a wheel's radius from run to run.
@@ -177,6 +180,7 @@ class Model {
   double log_evidence(const Fit& fit, const std::vector<std::size_t>& runs) const;
 
  private:
+  void observe();
   std::vector<Eigen::MatrixXd> products_of_nuisances() const;
   double roughness_under(const std::vector<Effect>& effects) const;
   Eigen::VectorXd feature_rows(std::size_t run, const Predicted& a, const Predicted& b, double lag_sd_s) const;

@@ -62,13 +62,21 @@ double mean_square_error_m2(const Model& model, const std::vector<std::vector<Po
   return sum / double(tracks.size());
 }
 
-std::vector<std::vector<double>> noise_misfits_m2(const Model& model, int draws) {
+std::vector<std::vector<double>> noise_misfits_m2(const Model& model, int draws, bool other_engine) {
+  std::vector<Eigen::VectorXd> engines(std::size_t(draws), Eigen::VectorXd::Zero(model.nuisances()));
+  RandomStream between(1, "difference of engines");
+  for (Eigen::VectorXd& engine : engines) {
+    for (Eigen::Index i = 0; i < engine.size() && other_engine; ++i)
+      engine[i] = between.normal(0, model.engine_sd()[i]);
+  }
   std::vector<std::vector<double>> squares(model.nominal().runs());
   tbb::parallel_for(std::size_t(0), squares.size(), [&](std::size_t r) {
     RandomStream random(1, "noise along a run", r);
     const Impulses3 radius[2] = {radius_impulses(model.nominal(), r, 0), radius_impulses(model.nominal(), r, 1)};
     for (int i = 0; i < draws; ++i) {
-      squares[r].push_back(aligned_misfit(model, r, noise_track(model, r, radius, random)).mean_square_m2);
+      const Eigen::VectorXd error =
+          noise_track(model, r, radius, random) + model.engine_tracks(r) * engines[std::size_t(i)];
+      squares[r].push_back(aligned_misfit(model, r, error).mean_square_m2);
     }
   });
   return squares;

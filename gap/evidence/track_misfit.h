@@ -23,6 +23,7 @@ double mean_square_error_m2(const Model& model, const std::vector<std::vector<Po
 
 /// Mean square position errors that noise alone makes where the prediction is right: heading and distance that walk,
 /// wheels whose radii differ from run to run, the tracker. Drawn from the noise model; outer index: run, m^2.
-std::vector<std::vector<double>> noise_misfits_m2(const Model& model, int draws);
+/// `other_engine`: with what engines differ by (Scatter), alike in all runs of a draw.
+std::vector<std::vector<double>> noise_misfits_m2(const Model& model, int draws, bool other_engine = false);
 
 }  // namespace umbsim::gap

@@ -14,7 +14,8 @@ constexpr int kCreepColumn = 0;
 constexpr int kSlipColumn = 1;
 constexpr int kLagColumn = 2;
 constexpr int kPerTracker = 4;  // marker (2), clock, frame: of each recording
-constexpr int kPerGroup = 5;    // legs, turns in place, rolling turns, heading and sideways along legs
+constexpr int kPerGroup = 7;    // legs, turns in place, rolling turns, heading and sideways along legs, leads (2)
+constexpr int kLeads = 5;       // the first of these
 constexpr int kOwn = 4;         // radii (2), clock, its rate
 constexpr double kCreep = 0.01;
 constexpr double kUnexplained = 20;  // times the scatter between engines
@@ -47,7 +48,8 @@ Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
     const bool several = layout.trackers.size() > 1;
     sd.segment(layout.group(g), kPerGroup) << (groups.rolling[g] ? s.arc_leg_scale : s.leg_scale),
-        several ? s.turns_between : s.turn_scale, several ? s.turns_between : s.arc_scale, s.heading_rad_pm, s.lateral;
+        several ? s.turns_between : s.turn_scale, several ? s.turns_between : s.arc_scale, s.heading_rad_pm, s.lateral,
+        s.lead_s, s.lead_s;
   }
   return sd;
 }
@@ -96,6 +98,9 @@ std::vector<Impulses3> group_impulses(const NominalReplay& nominal, std::size_t 
     impulses[arc ? 2 : 1][k][2] = turn_rad;
     impulses[3][k][2] = std::abs(ds_m);
     impulses[4][k][1] = ds_m;
+    const Eigen::Vector3d faster = nominal.velocity[run][k] - nominal.velocity[run][k - 1];
+    impulses[kLeads][k][0] = faster[0];
+    impulses[kLeads + 1][k][2] = faster[2];
   }
   return impulses;
 }
@@ -130,12 +135,14 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
                                     [](const Recording* r) { return tracker_is_free(*r); });
   Nuisances n;
   n.shared_sds = {shared_sd(layout, scatter)};
+  n.engine_sd = Eigen::VectorXd::Zero(layout.size());
+  n.engine_sd.head(layout.tracker(0)) = n.shared_sds.front().head(layout.tracker(0));
   n.unexplained_sd = Eigen::VectorXd::Zero(layout.size());
   if (!any_free) n.shared_sds.push_back(of_same_engine(n.shared_sds.front(), layout, scatter));
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
     const Eigen::Index first = layout.group(g);
     // Between turns in place only the moments at which a turn begins and ends roll in an arc: engines differ there.
-    for (int i = 0; i < kPerGroup; ++i) {
+    for (int i = 0; i < kLeads; ++i) {
       if (i != 2 || groups.rolling[g]) n.unexplained_sd[first + i] = kUnexplained * n.shared_sds.front()[first + i];
     }
   }
@@ -159,6 +166,7 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
     const Eigen::Index first = layout.group(groups.group_of[r]);
     for (int i = 0; i < kPerGroup; ++i) raw.col(first + i) = filters[r].propagate(impulses[std::size_t(i)]);
     n.shared.push_back(whitened(filters[r], raw, more_rows));
+    n.tracks.push_back(std::move(raw));
     if (nominal.recording->runs[r].has_commands)
       n.shared.back()(3 * samples + lag_row, kLagColumn) = 1 / scatter.run_lag_s;
     const bool is_free = tracker_is_free(*nominal.origin[r]);

@@ -11,26 +11,30 @@ namespace umbsim::gap {
 /// How far one engine's contact model may be from another's, and a robot from its own runs: standard deviations of
 /// scatter that no effect of the catalogue is needed for.
 struct Scatter {
-  double radius = 6e-5;          ///< of a wheel's radius from run to run
-  double real_radius = 2e-4;     ///< the same where the tracker is free: a real robot's tyres warm and wear
-  double leg_scale = 8e-5;       ///< of distance, per driving condition
-  double arc_leg_scale = 3e-4;   ///< the same between rolling turns
-  double turn_scale = 3e-4;      ///< of turns in place
-  double arc_scale = 1.5e-3;     ///< of rolling turns
-  double turns_between = 3e-3;   ///< of all turns, between recordings of one robot: kinds of driving that tyres scrub in
+  double radius = 6e-5;         ///< of a wheel's radius from run to run
+  double real_radius = 2e-4;    ///< the same where the tracker is free: a real robot's tyres warm and wear
+  double leg_scale = 8e-5;      ///< of distance, per driving condition
+  double arc_leg_scale = 3e-4;  ///< the same between rolling turns
+  double turn_scale = 9e-4;     ///< of turns in place
+  double arc_scale = 1.5e-3;    ///< of rolling turns
+  double turns_between = 3e-3;  ///< of all turns, between recordings of one robot: kinds of driving that tyres scrub in
   double heading_rad_pm = 5e-5;  ///< along legs
   double lateral = 3e-5;         ///< along legs
+  double lead_s = 0.015;         ///< of the pose before the counts, as speed goes: what contacts give way, or hold, per
+                                 ///< driving condition, along and turning
   double marker_m = 0.003;       ///< of the tracked point from the axle's middle
   double frame_rad = 0.02;       ///< of the tracker's heading from the drive axis, where it is free
   double clock_s = 0.05;         ///< between encoders and tracker
   double run_clock_s = 0.02;     ///< the same from run to run, where the tracker is free
   double clock_rate = 1e-3;      ///< of one clock against the other, from run to run, where the tracker is free
   double creep_across = 0.03;    ///< sideways creep of the tyres
-  double slip_share = 0.2;       ///< displacement by slip under jolts, in noise floors
+  double slip_share = 1;         ///< displacement by slip under jolts, in noise floors
   double gain = 4e-4;            ///< of counts over commands
   double lag_s = 0.006;          ///< of counts behind commands, alike in all runs
   double run_lag_s = 0.003;      ///< the same from run to run
   double counts_lag_s = 0.010;   ///< the same of any run, where counts alone are judged
+  double reading_m = 0.001;      ///< of single readings of the pose: contacts that give way for a moment,
+  double reading_rad = 5e-4;     ///< and of the heading
   double same_engine = 0.1;      ///< share of what engines differ by that is left where both are the same
 };
 
@@ -40,6 +44,8 @@ struct Nuisances {
   std::vector<Eigen::VectorXd> shared_sds;
   Eigen::VectorXd unexplained_sd;       ///< of the same numbers, if errors of no particular cause stood behind them
   std::vector<Eigen::MatrixXd> shared;  ///< one number for all runs that it acts in
+  std::vector<Eigen::MatrixXd> tracks;  ///< the same as track errors, not whitened
+  Eigen::VectorXd engine_sd;            ///< of what engines differ by; 0 of the trackers' numbers
   std::vector<Eigen::VectorXd> own_sd;
   std::vector<Eigen::MatrixXd> own;  ///< numbers of its own for each run
   double slips_at = 0;               ///< friction of the floor at which the wheels begin to let go; 0: at none
