@@ -111,8 +111,7 @@ struct Diagnosed {
   std::vector<gap::NextExperiment> next;
 };
 
-Diagnosed diagnosed(const DiagnoseArguments& a, const GapRecordings& recordings, const gap::Model& model,
-                    GapStages& stages) {
+Diagnosed diagnosed(const DiagnoseArguments& a, const GapRecordings& recordings, gap::Model& model, GapStages& stages) {
   const gap::ProgressCallback progress = [&](const std::string& stage, double share) { stages.report(stage, share); };
   const std::set<std::string> excluded(a.excluded.begin(), a.excluded.end());
   Diagnosed done{gap::diagnose(model, excluded, gap::Thresholds{}, progress), {}};
@@ -156,7 +155,7 @@ void run_diagnose(const DiagnoseArguments& a) {
   std::optional<ResultFolder> out;
   if (a.answer.wants_folder(a.out)) out.emplace(a.out, recordings.name() + "-diagnosis", a.force);
   GapStages stages(campaign.all.runs.size(), gap::stages_of_diagnosis());
-  const gap::Model model(campaign, stages.counted(recordings.simulator(a.no_cache)), gap::Scatter{});
+  gap::Model model(campaign, stages.counted(recordings.simulator(a.no_cache)), gap::Scatter{});
   const Diagnosed done = diagnosed(a, recordings, model, stages);
   const Json json = json_of(done, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   std::string words = wrapped(fmt::format("{}: {}", recordings.name(), campaign.all.title)) +

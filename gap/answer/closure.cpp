@@ -93,9 +93,12 @@ Closure held_out_closure(const Model& model, const Fit& fit) {
   double before_sum_m2 = 0;
   for (const double b : before) before_sum_m2 += b;
   // Within the noise there is no gap to close, nor one that a cause between commands and ticks could close.
-  const double most_noise_m2 = most_by_noise(model.same_engine(fit) ? noise : noise_misfits_m2(model, kDraws, true));
+  const double most_noise_m2 = most_by_noise(noise);
   closure.known = before_sum_m2 > most_noise_m2 && before != after;
-  closure.most_noise_mm = 1000 * std::sqrt(most_noise_m2 / double(runs));
+  const auto root_mean_mm = [&](double sum_m2) { return 1000 * std::sqrt(sum_m2 / double(runs)); };
+  closure.most_noise_mm = root_mean_mm(most_noise_m2);
+  closure.most_hidden_mm = model.same_engine(fit) ? closure.most_noise_mm
+                                                  : root_mean_mm(most_by_noise(noise_misfits_m2(model, kDraws, true)));
   closure.fraction = closure.known ? fraction(model.all_runs()) : 0;
   RandomStream random(1, "closure");
   std::vector<double> resampled;

@@ -9,6 +9,18 @@
 
 namespace umbsim::gap {
 
+namespace {
+
+// By how many mm^2 an effect must bring held-out runs nearer. What another engine's contacts do otherwise than these is
+// mended by many an effect: of a contact, beside the effect that explains most, the least that is told from it is what
+// noise makes.
+double least_worth_mm2(const Model& model, const Fit& fit, std::size_t hypothesis, const Closure& closure) {
+  const bool contact = !model.same_engine(fit) && hypothesis > 0 && is_contact(fit.hypotheses[hypothesis].effect);
+  return contact ? closure.floor_mm * closure.floor_mm : 0;
+}
+
+}  // namespace
+
 std::vector<Effect> twin_effects(const Fit& fit) {
   std::vector<Effect> effects;
   Eigen::Index at = 0;
@@ -29,23 +41,29 @@ void add_nothing(Closure& closure) {
 }
 
 // What an explanation leaves may be an error of its model: of a contact's, which differs from engine to engine, or of a
-// tracker's whose frame and clock are free. What moves no pose beyond noise, and beyond what engines differ by, leads
-// nowhere. A place or a moment mends a part of any misfit.
+// tracker's whose frame and clock are free. A place or a moment mends a part of any misfit.
 bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure) {
-  if (!closure.known) return false;
-  if (!model.same_engine(fit) && closure.after_mm <= closure.most_noise_mm) return true;
-  if (fit.is_local() || (fit.is_kinematic() && !model.tracker_is_free())) return false;
-  return closure.together().mm > closure.after_mm;
+  if (!closure.known || fit.is_local()) return false;
+  if (!model.tracker_is_free()) return !fit.is_kinematic() && closure.together().mm > closure.after_mm;
+  return closure.after_mm <= closure.most_noise_mm || closure.together().mm > closure.after_mm;
 }
 
 void keep_what_foretells(const Model& model, Fit& twin, Closure& closure) {
   while (closure.known && closure.worth.size() > 1) {
-    const auto less = [](const Worth& a, const Worth& b) { return a.mm < b.mm; };
-    const auto least = std::min_element(closure.worth.begin(), closure.worth.end(), less);
-    if (least->mm >= 0) return;
-    const Fit fewer = model.without(twin, std::size_t(least - closure.worth.begin()));
+    // How far each is from what it must bring.
+    std::vector<double> lacks;
+    for (std::size_t i = 0; i < closure.worth.size(); ++i) {
+      const double worth_mm2 = closure.worth[i].mm * (2 * closure.after_mm + closure.worth[i].mm);
+      lacks.push_back(least_worth_mm2(model, twin, i, closure) - worth_mm2);
+    }
+    const auto most = std::max_element(lacks.begin(), lacks.end());
+    if (*most <= 0) return;
+    const std::size_t out = std::size_t(most - lacks.begin());
+    const double least_mm2 = least_worth_mm2(model, twin, out, closure);
+    const Fit fewer = model.without(twin, out);
     const Closure with_fewer = held_out_closure(model, fewer);
-    if (!with_fewer.known || with_fewer.after_mm >= closure.after_mm) return;
+    const double lost_mm2 = with_fewer.after_mm * with_fewer.after_mm - closure.after_mm * closure.after_mm;
+    if (!with_fewer.known || lost_mm2 >= least_mm2) return;
     twin = fewer;
     closure = with_fewer;
   }

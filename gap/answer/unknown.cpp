@@ -54,13 +54,15 @@ LeftUnexplained left_unexplained(const Model& model, const Fit& fit, const Thres
           fit.hypotheses.empty() ? 0 : late_left(model, fit, t)};
 }
 
-double may_be_left(const Fit& fit, double explained, const Thresholds& t) {
+double may_be_left(const Fit& fit, double explained, bool beside_contacts, const Thresholds& t) {
   const auto toe = [](const Hypothesis& f) { return f.effect == "wheel_misalignment"; };
   const bool toed = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(), toe);
   // Of what is left and explained together a share of s is left where s / (1 - s) of the explained is.
   const auto beside = [&](double known_share) { return (1 - known_share) / known_share * std::max(0.0, explained); };
   const double left = beside(toed ? t.known_share_of_toe : t.known_share);
-  return fit.is_kinematic() ? std::min(left, std::max(t.left_by_rolling, beside(t.known_share_of_rolling))) : left;
+  return fit.is_kinematic() && !beside_contacts
+             ? std::min(left, std::max(t.left_by_rolling, beside(t.known_share_of_rolling)))
+             : left;
 }
 
 double enough_to_detect(const std::vector<std::string>& effects, const Thresholds& t) {
@@ -72,12 +74,13 @@ double enough_to_detect(const std::vector<std::string>& effects, const Threshold
   return std::all_of(effects.begin(), effects.end(), same_for_all_engines) ? t.detect_rolling : t.detect;
 }
 
-bool is_unknown(const Fit& fit, double explained, const Closure& closure, const LeftUnexplained& left,
-                const LeftUnexplained& none, const Thresholds& t) {
+bool is_unknown(const Model& model, const Fit& fit, double explained, const Closure& closure,
+                const LeftUnexplained& left, const LeftUnexplained& none, const Thresholds& t) {
   const bool other_kind = std::max(left.sudden, left.late) > std::max(t.detect, t.sudden_or_late_left * explained) ||
                           left.sudden > std::max(t.detect, sudden_that_may_be_left(fit, t) * explained);
   const bool foretells = !closure.known || closure.ci95[1] > t.least_closure;
-  const bool little = left.steady > may_be_left(fit, explained, t);
+  const bool hidden = closure.known && closure.after_mm <= closure.most_noise_mm;
+  const bool little = left.steady > may_be_left(fit, explained, hidden && !model.same_engine(fit), t);
   const bool much = explained > t.most_left * left.all();
   return other_kind ||
          (left.all() > t.detect && (!(foretells || much) || little || left.lack > t.misfit_left * none.lack));

@@ -19,7 +19,6 @@ namespace umbsim::gap {
 namespace {
 
 constexpr int kFeatureRows = 8;  // three of a run, and five of the recording, which stand with the first run
-constexpr int kLagRow = 2;
 
 bool acts_on_counts(const std::vector<Effect>& effects) {
   return std::any_of(effects.begin(), effects.end(), [](const Effect& e) { return shows_in_counts(*e.info); });
@@ -94,8 +93,18 @@ Model::Model(const Campaign& campaign, Simulator simulator, const Scatter& scatt
   for (std::size_t r = 0; r < all.runs.size(); ++r) of_runs.push_back(noise(r));
   noise_floor_m_ = gap::noise_floor_m(nominal_, of_runs);
   observe();
-  if (none().prior > 0 || nuisances_.shared_sds.size() < 2) return;
-  // Another engine made them. Its contacts give way for a moment where a robot speeds up, stops and turns.
+}
+
+double Model::another_engine(const Fit& fit) const {
+  if (!engine_is_open()) return 0;
+  const auto density = [&](const Eigen::VectorXd& sd) {
+    return evidence(fit.grams, all_runs(), first_columns(nuisances()), sd).log_density;
+  };
+  return density(nuisance_sds().front()) - density(nuisance_sds().back());
+}
+
+void Model::take_for_another_engines() {
+  scatter_ = between_engines(scatter_);
   for (NoiseEstimate& estimate : noises_) {
     estimate.noise.position_sd_m = std::hypot(estimate.noise.position_sd_m, scatter_.reading_m);
     estimate.noise.heading_sd_rad = std::hypot(estimate.noise.heading_sd_rad, scatter_.reading_rad);
@@ -111,7 +120,9 @@ void Model::observe() {
     filters_.emplace_back(nominal_.tracks[r], nominal_.rolled_m[r], noise(r), nominal_.seen[r], nominal_.velocity[r]);
   }
   const Drive drive = [this](const std::vector<Effect>& effects) { return predict({effects}).front().tracks; };
-  nuisances_ = make_nuisances(nominal_, filters_, scatter_, drive, noise_floor_m_, kFeatureRows, kLagRow);
+  std::vector<CountsSd> counts;
+  for (const std::size_t r : all_runs()) counts.push_back(counts_sd(r, false));
+  nuisances_ = make_nuisances(nominal_, filters_, scatter_, drive, noise_floor_m_, kFeatureRows, counts);
   products_of_nuisances_ = products_of_nuisances();
 }
 
@@ -155,8 +166,16 @@ std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& se
   return all;
 }
 
-// What differs between two of them, in standard deviations; of lags from run to run, or with what they share.
-Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const Predicted& b, double lag_sd_s) const {
+// With what counts against commands are measured; where they are judged alone, with what engines differ by.
+CountsSd Model::counts_sd(std::size_t run, bool alone) const {
+  const CommandResponse& measured = measured_.counted[run];
+  if (!measured.known) return CountsSd::Zero();
+  const double gain = std::hypot(scatter_.gain, measured.gain_sd, alone ? scatter_.engine_gain : 0);
+  return {gain, gain, alone ? scatter_.counts_lag_s : scatter_.run_lag_s};
+}
+
+// What differs between two of them, in standard deviations.
+Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const Predicted& b, bool alone) const {
   Eigen::VectorXd rows = Eigen::VectorXd::Zero(kFeatureRows);
   if (run == 0) {
     for (std::size_t i = 0; i < a.command_features.size(); ++i) {
@@ -166,9 +185,8 @@ Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const P
   const CommandResponse& x = a.counted[run];
   const CommandResponse& y = b.counted[run];
   if (!measured_.counted[run].known || !x.known || !y.known) return rows;
-  const double gain_sd = std::hypot(scatter_.gain, measured_.counted[run].gain_sd);
-  rows.head<3>() << (x.left_gain - y.left_gain) / gain_sd, (x.right_gain - y.right_gain) / gain_sd,
-      (x.lag_s - y.lag_s) / lag_sd_s;
+  rows.head<3>() = CountsSd(x.left_gain - y.left_gain, x.right_gain - y.right_gain, x.lag_s - y.lag_s)
+                       .cwiseQuotient(counts_sd(run, alone));
   return rows;
 }
 
@@ -178,7 +196,7 @@ std::vector<Eigen::VectorXd> Model::residuals(const Predicted& predicted) const 
     if (predicted.tracks[r].empty()) return;
     const Eigen::VectorXd white = filters_[r].whiten(track_error(predicted.tracks[r], nominal_.truth[r]));
     result[r].resize(white.size() + kFeatureRows);
-    result[r] << white, feature_rows(r, measured_, predicted, scatter_.run_lag_s);
+    result[r] << white, feature_rows(r, measured_, predicted, false);
   });
   return result;
 }
@@ -186,12 +204,12 @@ std::vector<Eigen::VectorXd> Model::residuals(const Predicted& predicted) const 
 double Model::counts_misfit(const Predicted& predicted) const {
   double sum = 0;
   for (std::size_t r = 0; r < recording().runs.size(); ++r)
-    sum += feature_rows(r, measured_, predicted, scatter_.counts_lag_s).squaredNorm();
+    sum += feature_rows(r, measured_, predicted, true).squaredNorm();
   return sum;
 }
 
 double Model::command_features_misfit(const Predicted& predicted) const {
-  return feature_rows(0, measured_, predicted, scatter_.counts_lag_s).tail(kFeatureRows - 3).squaredNorm();
+  return feature_rows(0, measured_, predicted, true).tail(kFeatureRows - 3).squaredNorm();
 }
 
 double Model::count_rows() const {
@@ -209,8 +227,7 @@ std::vector<Eigen::MatrixXd> Model::columns(const Predicted& at, const std::vect
     result[r].resize(n + kFeatureRows, raw.cols());
     for (std::size_t j = 0; j < stepped.size(); ++j) {
       raw.col(Eigen::Index(j)) = track_error(at.tracks[r], stepped[j].tracks[r]) / steps[j];
-      result[r].col(Eigen::Index(j)).tail(kFeatureRows) =
-          feature_rows(r, stepped[j], at, scatter_.run_lag_s) / steps[j];
+      result[r].col(Eigen::Index(j)).tail(kFeatureRows) = feature_rows(r, stepped[j], at, false) / steps[j];
     }
     result[r].topRows(n) = filters_[r].whiten(raw);
   });

@@ -95,6 +95,13 @@ class Model {
   bool tracker_is_free() const;  ///< of any recording
   /// Whether a fit says that this engine made the recordings: their runs stray from it by less than engines differ.
   bool same_engine(const Fit& fit) const { return fit.prior > 0; }
+  /// Whether it is open that this engine made them: a real robot's runs are not.
+  bool engine_is_open() const { return nuisances_.shared_sds.size() > 1; }
+  /// By how much log evidence a fit says that another engine made the runs; 0 where it is not open.
+  double another_engine(const Fit& fit) const;
+  /// From now on the runs are another engine's: it differs from this one as measured between engines, and single
+  /// readings scatter by more, for contacts give way for a moment where a robot speeds up, stops and turns.
+  void take_for_another_engines();
   double noise_floor_m() const { return noise_floor_m_; }
   bool replicated() const { return replicated_; }
   const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }
@@ -183,7 +190,8 @@ class Model {
   void observe();
   std::vector<Eigen::MatrixXd> products_of_nuisances() const;
   double roughness_under(const std::vector<Effect>& effects) const;
-  Eigen::VectorXd feature_rows(std::size_t run, const Predicted& a, const Predicted& b, double lag_sd_s) const;
+  CountsSd counts_sd(std::size_t run, bool alone) const;
+  Eigen::VectorXd feature_rows(std::size_t run, const Predicted& a, const Predicted& b, bool alone) const;
   Linearisation linearised(const Fit& fit) const;
   void score(Fit& fit) const;
 

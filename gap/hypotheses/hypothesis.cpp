@@ -63,6 +63,8 @@ bool is_kinematic(const std::string& effect) {
   return effects.count(effect) > 0;
 }
 
+bool is_contact(const std::string& effect) { return !is_kinematic(effect) && !shows_in_counts(find_effect(effect)); }
+
 bool is_dimension(const std::string& effect) {
   return effect == "wheel_radius_scale" || effect == "wheel_radius_difference" || effect == "wheelbase";
 }

@@ -60,6 +60,9 @@ bool is_commanded_motion(const std::string& effect);
 /// another engine's robot, or a real one, shows it as ours does.
 bool is_kinematic(const std::string& effect);
 
+/// Whether it is neither that nor seen in the counts: what an engine's contacts make of it is its own.
+bool is_contact(const std::string& effect);
+
 /// Every hypothesis of the catalogue that needs no search for a place or moment.
 /// `period_s` and `ticks_per_revolution`: of the recording's encoders. `wheel_width_m`: no contact is wider; 0: not
 /// known.

@@ -9,14 +9,14 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr int kCommon = 3;  // creep, slip, lag: of the robot
+constexpr int kCommon = 5;  // creep, slip, gains (2), lag: of the robot
 constexpr int kCreepColumn = 0;
 constexpr int kSlipColumn = 1;
-constexpr int kLagColumn = 2;
-constexpr int kPerTracker = 4;  // marker (2), clock, frame: of each recording
-constexpr int kPerGroup = 7;    // legs, turns in place, rolling turns, heading and sideways along legs, leads (2)
-constexpr int kLeads = 5;       // the first of these
-constexpr int kOwn = 4;         // radii (2), clock, its rate
+constexpr int kCountsColumn = 2;  // the first of gains and lag
+constexpr int kPerTracker = 4;    // marker (2), clock, frame: of each recording
+constexpr int kPerGroup = 7;      // legs, turns in place, rolling turns, heading and sideways along legs, leads (2)
+constexpr int kLeads = 5;         // the first of these
+constexpr int kOwn = 4;           // radii (2), clock, its rate
 constexpr double kCreep = 0.01;
 constexpr double kUnexplained = 20;  // times the scatter between engines
 
@@ -39,7 +39,7 @@ struct Layout {
 
 Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
   Eigen::VectorXd sd(layout.size());
-  sd.head(kCommon) << s.creep_across, 1, s.lag_s;
+  sd.head(kCommon) << s.creep_across, 1, s.engine_gain, s.engine_gain, s.lag_s;
   for (std::size_t t = 0; t < layout.trackers.size(); ++t) {
     sd.segment(layout.tracker(t), kPerTracker) << s.marker_m, s.marker_m, s.clock_s,
         tracker_is_free(*layout.trackers[t]) ? s.frame_rad : 0;
@@ -125,10 +125,20 @@ Eigen::MatrixXd whitened(const TrackFilter& filter, const Eigen::MatrixXd& raw, 
 
 }  // namespace
 
+Scatter between_engines(Scatter scatter) {
+  scatter.turn_scale = 9e-4;
+  scatter.slip_share = 1;
+  scatter.lead_s = 0.015;
+  scatter.engine_gain = 1e-3;
+  scatter.reading_m = 1e-3;
+  scatter.reading_rad = 5e-4;
+  return scatter;
+}
+
 bool tracker_is_free(const Recording& recording) { return recording.truth_heading_sd_rad > 0.001; }
 
 Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFilter>& filters, const Scatter& scatter,
-                         const Drive& drive, double floor_m, int more_rows, int lag_row) {
+                         const Drive& drive, double floor_m, int more_rows, const std::vector<CountsSd>& counts) {
   const Layout layout(nominal);
   const RunGroups& groups = layout.groups;
   const bool any_free = std::any_of(layout.trackers.begin(), layout.trackers.end(),
@@ -167,8 +177,9 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
     for (int i = 0; i < kPerGroup; ++i) raw.col(first + i) = filters[r].propagate(impulses[std::size_t(i)]);
     n.shared.push_back(whitened(filters[r], raw, more_rows));
     n.tracks.push_back(std::move(raw));
-    if (nominal.recording->runs[r].has_commands)
-      n.shared.back()(3 * samples + lag_row, kLagColumn) = 1 / scatter.run_lag_s;
+    for (Eigen::Index i = 0; i < counts[r].size(); ++i) {
+      if (counts[r][i] > 0) n.shared.back()(3 * samples + i, kCountsColumn + i) = 1 / counts[r][i];
+    }
     const bool is_free = tracker_is_free(*nominal.origin[r]);
     const double radius = is_free ? scatter.real_radius : scatter.radius;
     n.own_sd.push_back(

@@ -15,28 +15,31 @@ struct Scatter {
   double real_radius = 2e-4;    ///< the same where the tracker is free: a real robot's tyres warm and wear
   double leg_scale = 8e-5;      ///< of distance, per driving condition
   double arc_leg_scale = 3e-4;  ///< the same between rolling turns
-  double turn_scale = 9e-4;     ///< of turns in place
+  double turn_scale = 3e-4;     ///< of turns in place
   double arc_scale = 1.5e-3;    ///< of rolling turns
   double turns_between = 3e-3;  ///< of all turns, between recordings of one robot: kinds of driving that tyres scrub in
   double heading_rad_pm = 5e-5;  ///< along legs
   double lateral = 3e-5;         ///< along legs
-  double lead_s = 0.015;         ///< of the pose before the counts, as speed goes: what contacts give way, or hold, per
-                                 ///< driving condition, along and turning
-  double marker_m = 0.003;       ///< of the tracked point from the axle's middle
-  double frame_rad = 0.02;       ///< of the tracker's heading from the drive axis, where it is free
-  double clock_s = 0.05;         ///< between encoders and tracker
-  double run_clock_s = 0.02;     ///< the same from run to run, where the tracker is free
-  double clock_rate = 1e-3;      ///< of one clock against the other, from run to run, where the tracker is free
-  double creep_across = 0.03;    ///< sideways creep of the tyres
-  double slip_share = 1;         ///< displacement by slip under jolts, in noise floors
-  double gain = 4e-4;            ///< of counts over commands
-  double lag_s = 0.006;          ///< of counts behind commands, alike in all runs
-  double run_lag_s = 0.003;      ///< the same from run to run
-  double counts_lag_s = 0.010;   ///< the same of any run, where counts alone are judged
-  double reading_m = 0.001;      ///< of single readings of the pose: contacts that give way for a moment,
-  double reading_rad = 5e-4;     ///< and of the heading
-  double same_engine = 0.1;      ///< share of what engines differ by that is left where both are the same
+  double lead_s = 0;           ///< of the pose before the counts, as speed goes, along and turning: contacts that creep
+  double marker_m = 0.003;     ///< of the tracked point from the axle's middle
+  double frame_rad = 0.02;     ///< of the tracker's heading from the drive axis, where it is free
+  double clock_s = 0.05;       ///< between encoders and tracker
+  double run_clock_s = 0.02;   ///< the same from run to run, where the tracker is free
+  double clock_rate = 1e-3;    ///< of one clock against the other, from run to run, where the tracker is free
+  double creep_across = 0.03;  ///< sideways creep of the tyres
+  double slip_share = 0.2;     ///< displacement by slip under jolts, in noise floors
+  double gain = 4e-4;          ///< of counts over commands
+  double engine_gain = 0;      ///< of the same, alike in all runs: servos droop under their load
+  double lag_s = 0.006;        ///< of counts behind commands, alike in all runs
+  double run_lag_s = 0.003;    ///< the same from run to run
+  double counts_lag_s = 0.010;  ///< the same of any run, where counts alone are judged
+  double reading_m = 0;         ///< of single readings of the pose: contacts that give way for a moment,
+  double reading_rad = 0;       ///< and of the heading
+  double same_engine = 0.1;     ///< share of what engines differ by that is left where both are the same
 };
+
+/// The same where another engine is known to have made the runs, as measured between four of them (docs/worlds.md).
+Scatter between_engines(Scatter scatter);
 
 /// Columns that are fitted always and credited to nobody. Per run, whitened; outer index: run.
 struct Nuisances {
@@ -58,9 +61,13 @@ using Drive = std::function<std::vector<std::vector<Pose2>>(const std::vector<Ef
 /// headings as well as a simulated one.
 bool tracker_is_free(const Recording& recording);
 
-/// `floor_m`: the noise floor, for how much slip is nobody's. `more_rows`: below each column, zeros but for the lag of
-/// counts behind commands in the row `lag_row` of these.
+/// With what counts against commands are measured in a run, standard deviations: left gain, right gain, lag (s). Zeros
+/// where they are not known.
+using CountsSd = Eigen::Vector3d;
+
+/// `floor_m`: the noise floor, for how much slip is nobody's. `more_rows`: below each column, zeros but for the gains
+/// and the lag of counts in the first three of these. `counts`: of each run.
 Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFilter>& filters, const Scatter& scatter,
-                         const Drive& drive, double floor_m, int more_rows, int lag_row);
+                         const Drive& drive, double floor_m, int more_rows, const std::vector<CountsSd>& counts);
 
 }  // namespace umbsim::gap

@@ -63,7 +63,7 @@ TEST_P(SecondEngine, TheCauseIsNamed) {
   intake::check_recording(recording, folder.string());
   const Replay replay(scenario_of(recording, folder.string()), recording);
   const Campaign campaign = campaign_of(recording);
-  const Model model(campaign, testing::simulator(replay), Scatter{});
+  Model model(campaign, testing::simulator(replay), Scatter{});
   const Diagnosis d = diagnose(model, {}, Thresholds{}, [](const std::string&, double) {});
   const Cause& first = d.causes.front();
   std::string said = fmt::format("{}: {} (set {})", label.folder, first.name, fmt::join(d.set, ", "));
