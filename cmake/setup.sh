@@ -118,18 +118,22 @@ choose_pages() {
 }
 
 # build_targets TARGET...: configures when needed, says so, builds. Silent if there is nothing to do.
+# The environment's UMBSIM_WARNINGS_AS_ERRORS is ON or OFF; without it the build folder stays as it is.
 build_targets() {
+  local strict=${UMBSIM_WARNINGS_AS_ERRORS:-}
   mkdir -p "$build"
   forget_other_place
   choose_pages
   if [ ! -f "$build/build.ninja" ]; then
     first_build=yes
     say "configuring and building in build/release; this takes some minutes the first time"
-  elif ! grep -qx "UMBSIM_PAGES:[A-Z]*=$pages" "$build/CMakeCache.txt"; then
+  elif ! grep -qx "UMBSIM_PAGES:[A-Z]*=$pages" "$build/CMakeCache.txt" ||
+       { [ -n "$strict" ] && ! grep -qx "UMBSIM_WARNINGS_AS_ERRORS:[A-Z]*=$strict" "$build/CMakeCache.txt"; }; then
     rm -f "$build/build.ninja"
   fi
   if [ ! -f "$build/build.ninja" ]; then
-    (cd "$root" && quietly cmake --preset release -DUMBSIM_PAGES=$pages) || { say "configuring failed"; return 1; }
+    (cd "$root" && quietly cmake --preset release -DUMBSIM_PAGES=$pages \
+       ${strict:+"-DUMBSIM_WARNINGS_AS_ERRORS=$strict"}) || { say "configuring failed"; return 1; }
   fi
   (cd "$root" && run_ninja "$@") || { say "building failed"; return 1; }
 }

@@ -1,5 +1,6 @@
 #include "report/report.h"
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <string_view>
@@ -25,22 +26,24 @@ constexpr Kind kKinds[] = {{"run", true},         {"recording", true},    {"swee
                            {"calibration", false}, {"explanation", true}, {"plan", false},  {"prediction", false},
                            {"score", false},       {"index", false}};
 
+// Where several begin at one place, the first counts.
 template <std::size_t N>
 std::string replace_all(std::string_view text, const std::array<Replacement, N>& replacements) {
+  std::array<std::size_t, N> next;  // place of each
+  for (std::size_t i = 0; i < N; ++i) next[i] = text.find(replacements[i].first);
   std::string result;
   result.reserve(text.size());
-  for (std::size_t at = 0; at < text.size();) {
-    const Replacement* hit = nullptr;
-    for (const Replacement& r : replacements) {
-      if (text.compare(at, r.first.size(), r.first) == 0) {
-        hit = &r;
-        break;
-      }
+  for (std::size_t at = 0;;) {
+    const auto first = std::min_element(next.begin(), next.end());
+    result += text.substr(at, *first - at);
+    if (*first == std::string_view::npos) return result;
+    const Replacement& r = replacements[std::size_t(first - next.begin())];
+    result += r.second;
+    at = *first + r.first.size();
+    for (std::size_t i = 0; i < N; ++i) {
+      if (next[i] < at) next[i] = text.find(replacements[i].first, at);
     }
-    result += hit ? hit->second : text.substr(at, 1);
-    at += hit ? hit->first.size() : 1;
   }
-  return result;
 }
 
 /// In JSON these occur only inside strings, where the escape means the same. No "<" is left: no "</script", no "<!--".

@@ -1,22 +1,41 @@
 #include "sim/floor.h"
 
-#include <cmath>
-
 #include <Eigen/Geometry>
+#include <cmath>
+#include <optional>
 
 #include "core/random.h"
+#include "sim/floor_near.h"
 
 namespace umbsim {
 namespace {
 
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kNewtonSteps = 8;
 constexpr double kConverged = 1e-13;
+constexpr double kNearlyThere = 1e-10;  // of a slope: the next step ends below round-off
+constexpr double kLeastDeterminant = 0.25;
 
 // The direction in the disc's plane that points most nearly along `towards`.
 Vector3d in_plane(const Vector3d& axis, const Vector3d& towards) {
   return (towards - axis * axis.dot(towards)).normalized();
+}
+
+// Newton's change of a slope that is `off` from that of the floor at the rim's point for it: the rim's point moves by
+// the radius times the change, in the disc's plane, and the floor's slope there by its bend. None where the floor bends
+// nearly as much as the wheel.
+std::optional<Vector2d> newton_change(const FloorBend& floor, const RollingShape& shape, const Vector2d& off) {
+  const Vector2d axis = shape.axis.head<2>();
+  Matrix2d bend, left = Matrix2d::Identity();
+  bend << floor.xx_per_m, floor.xy_per_m, floor.xy_per_m, floor.yy_per_m;
+  left -= shape.radius_m * (bend - (bend * axis) * axis.transpose());
+  const double determinant = left(0, 0) * left(1, 1) - left(0, 1) * left(1, 0);
+  if (determinant < kLeastDeterminant) return std::nullopt;
+  return Vector2d(left(1, 1) * off.x() - left(0, 1) * off.y(), left(0, 0) * off.y() - left(1, 0) * off.x()) /
+         determinant;
 }
 
 }  // namespace
@@ -29,17 +48,7 @@ double friction_at(const Floor& floor, double x_m, double y_m) {
   return friction;
 }
 
-FloorPoint floor_at(const Floor& floor, double x_m, double y_m) {
-  FloorPoint at;
-  for (const Ripple& r : floor.ripples) {
-    const double phase = r.kx_radpm * x_m + r.ky_radpm * y_m + r.phase_rad;
-    const double slope = -r.amplitude_m * std::sin(phase);
-    at.height_m += r.amplitude_m * std::cos(phase);
-    at.slope_x += slope * r.kx_radpm;
-    at.slope_y += slope * r.ky_radpm;
-  }
-  return at;
-}
+FloorPoint floor_at(const Floor& floor, double x_m, double y_m) { return floor_bend(floor, x_m, y_m).at; }
 
 std::vector<Ripple> random_ripples(double rms_m, double wavelength_m, std::uint64_t seed, std::uint64_t index,
                                    int waves) {
@@ -55,81 +64,30 @@ std::vector<Ripple> random_ripples(double rms_m, double wavelength_m, std::uint6
   return ripples;
 }
 
-namespace {
-
-// The floor near one place: its ripples' sines and cosines once, and from there by the theorem of addition, with series
-// in the change of phase.
-class FloorNear {
- public:
-  static constexpr std::size_t kMost = 32;
-  static constexpr double kFar = 0.03;  // of a phase; the series' next terms are below 1e-19
-
-  FloorNear(const Floor& floor, double x_m, double y_m) : floor_(floor) { move(x_m, y_m); }
-
-  FloorPoint at(double x_m, double y_m) {
-    const std::size_t count = floor_.ripples.size();
-    if (count > kMost) return floor_at(floor_, x_m, y_m);
-    const double dx = x_m - x_m_, dy = y_m - y_m_;
-    FloorPoint at;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Ripple& r = floor_.ripples[i];
-      const double d = r.kx_radpm * dx + r.ky_radpm * dy, d2 = d * d;
-      if (d2 > kFar * kFar) {
-        move(x_m, y_m);
-        return this->at(x_m, y_m);
-      }
-      const double sine = d * (1 - d2 / 6 * (1 - d2 / 20 * (1 - d2 / 42)));
-      const double versine = d2 / 2 * (1 - d2 / 12 * (1 - d2 / 30 * (1 - d2 / 56)));
-      const double height = cosine_[i] - versine * cosine_[i] - sine * sine_[i];
-      const double slope = -(sine_[i] - versine * sine_[i] + sine * cosine_[i]);
-      at.height_m += height;
-      at.slope_x += slope * r.kx_radpm;
-      at.slope_y += slope * r.ky_radpm;
-    }
-    return at;
-  }
-
- private:
-  void move(double x_m, double y_m) {
-    x_m_ = x_m;
-    y_m_ = y_m;
-    if (floor_.ripples.size() > kMost) return;
-    for (std::size_t i = 0; i < floor_.ripples.size(); ++i) {
-      const Ripple& r = floor_.ripples[i];
-      const double phase = r.kx_radpm * x_m + r.ky_radpm * y_m + r.phase_rad;
-      sine_[i] = r.amplitude_m * std::sin(phase);
-      cosine_[i] = r.amplitude_m * std::cos(phase);
-    }
-  }
-
-  const Floor& floor_;
-  double x_m_ = 0, y_m_ = 0;
-  double sine_[kMost], cosine_[kMost];  // times the amplitude
-};
-
-}  // namespace
-
+// The nearest point of disc or ball lies where its own normal opposes the floor's: the floor's slope there is `slope`.
+// Newton's method, which takes the disc for upright, or else the fixed-point iteration.
 NearestPoint nearest_on_floor(const Floor& floor, const RollingShape& shape) {
   const bool ball = shape.axis.isZero();
-  Vector3d normal = Vector3d::UnitZ();
-  const auto rim_at = [&] {
-    const Vector3d towards = ball ? Vector3d(-normal) : in_plane(shape.axis, -normal);
-    return Vector3d(shape.centre_m + shape.radius_m * towards);
+  Vector2d slope = Vector2d::Zero();
+  Vector3d normal = Vector3d::UnitZ(), rim;
+  const auto go_to_rim = [&] {
+    rim = shape.centre_m + shape.radius_m * (ball ? Vector3d(-normal) : in_plane(shape.axis, -normal));
   };
-  const Vector3d below = rim_at();
-  if (floor.ripples.empty()) return {{below.x(), below.y(), 0}, normal, below.z()};
-  FloorNear near(floor, below.x(), below.y());
-  // The nearest point of disc or ball lies where its own normal opposes the floor's: a fixed-point iteration, which
-  // contracts by (floor curvature x radius) each round.
+  go_to_rim();
+  if (floor.ripples.empty()) return {{rim.x(), rim.y(), 0}, normal, rim.z()};
+  FloorNear near(floor, rim.x(), rim.y());
   for (int i = 0;; ++i) {
-    const Vector3d rim = i == 0 ? below : rim_at();
-    const FloorPoint at = near.at(rim.x(), rim.y());
-    const Vector3d next = Vector3d(-at.slope_x, -at.slope_y, 1).normalized();
-    const bool converged = (next - normal).squaredNorm() < kConverged * kConverged;
-    normal = next;
-    if (converged || i == 4 * kNewtonSteps) {
-      return {{rim.x(), rim.y(), at.height_m}, normal, (rim.z() - at.height_m) * normal.z()};
+    const FloorBend found = near.at(rim.x(), rim.y());
+    const Vector2d off = Vector2d(found.at.slope_x, found.at.slope_y) - slope;
+    const std::optional<Vector2d> change = newton_change(found, shape, off);
+    slope += change.value_or(off);
+    normal = Vector3d(-slope.x(), -slope.y(), 1).normalized();
+    const double near_enough = change ? kNearlyThere : kConverged;
+    if (off.squaredNorm() < near_enough * near_enough || i == 4 * kNewtonSteps) {
+      const double height_m = found.at.height_m;
+      return {{rim.x(), rim.y(), height_m}, normal, (rim.z() - height_m) * normal.z()};
     }
+    go_to_rim();
   }
 }
 

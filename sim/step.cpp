@@ -19,7 +19,8 @@ constexpr double kSmallTurn = 0.03;  // in a step; the series' next term is belo
 void World::State::step(double step_s, const std::array<double, 2>& target_radps) {
   const Impulse given = given_impulse(step_s);
   const bool kicked = !given.isZero(0);
-  if (kicked || !is_on_plane(step_s) || !step_on_plane(step_s, target_radps)) step_anywhere(step_s, target_radps, given);
+  if (kicked || !is_on_plane(step_s) || !step_on_plane(step_s, target_radps))
+    step_anywhere(step_s, target_radps, given);
   count(report);
   note_loads(step_s);
   note_strain(step_s);
@@ -246,8 +247,8 @@ void World::State::track_heading() {
 
 void World::State::check_finite() const {
   const DofVector& u = body.velocity();
-  double sum = body.position().sum();
-  for (int i = 0; i < body.dofs(); ++i) sum += u[i];
+  double sum = body.position().sum() + u.head<kBaseAndWheels>().sum();
+  for (int i = kBaseAndWheels; i < body.dofs(); ++i) sum += u[i];
   if (std::isfinite(sum)) return;
   std::string which = u.head<6>().allFinite() ? "a wheel or caster" : "the base";
   throw RunError(fmt::format("{}: the state became non-finite after {:.3f} simulated seconds, in {}", robot.urdf,

@@ -104,7 +104,10 @@ void complete_fork(const UrdfSource& source, const Body& body, double robot_kg, 
   Inertial& fork = caster.fork;
   const std::string fault = fork.mass_kg == 0 ? "without mass" : inertia_fault(fork.inertia_kgm2);
   if (fault.empty()) return;
-  if (fork.mass_kg == 0) fork = {kForkShare * robot_kg, caster.centre_m, {}};
+  if (fork.mass_kg == 0) {
+    fork.mass_kg = kForkShare * robot_kg;
+    fork.com_m = caster.centre_m;
+  }
   fork.inertia_kgm2 = fork.mass_kg * r2 * Eigen::Matrix3d::Identity();
   source.remark(Remark::Kind::assumed, fmt::format("{}: {}; taken as {:.3g} kg with a radius of gyration of {:.3g} m",
                                                    source.link_text(body.link), fault, fork.mass_kg, caster.radius_m));

@@ -6,6 +6,7 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
@@ -58,9 +59,11 @@ std::string read_text(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError({file}, "cannot be read: no such URDF file, or no permission");
   constexpr std::size_t kMost = 16u << 20;  // far more than any; a device may never end
-  std::string text(kMost + 1, '\0');
-  stream.read(text.data(), std::streamsize(text.size()));
-  text.resize(std::size_t(stream.gcount()));
+  std::string text;
+  std::array<char, 1 << 14> block;
+  while (text.size() <= kMost && (stream.read(block.data(), block.size()), stream.gcount() > 0)) {
+    text.append(block.data(), std::size_t(stream.gcount()));
+  }
   if (text.size() > kMost) throw InputError({file}, fmt::format("is longer than the {} bytes allowed", kMost));
   const bool blank = std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isspace(c); });
   if (blank) throw InputError({file}, "is empty, not a URDF file");

@@ -32,6 +32,14 @@ double extent_at(const Segment& s, double t) {
 
 double part_at(const Segment& s, double time_s) { return extent_at(s, time_s - s.start_s) / extent(s); }
 
+Pose2 pose_at(const Segment& s, double part) { return s.X_SB_start * arc(part * s.length_m, part * s.angle_rad); }
+
+// By its series where the angle is small; the next term is below round-off.
+double cosine(double angle_rad) {
+  const double a2 = angle_rad * angle_rad;
+  return a2 < 0.01 ? 1 - a2 / 2 * (1 - a2 / 12 * (1 - a2 / 30 * (1 - a2 / 56))) : std::cos(angle_rad);
+}
+
 // X_BC of X_AB and X_AC: inverse(X_AB) * X_AC with one sine and cosine.
 Pose2 seen_from(const Pose2& X_AB, const Pose2& X_AC) {
   const double c = std::cos(X_AB.theta_rad), s = std::sin(X_AB.theta_rad);
@@ -45,7 +53,7 @@ struct Feed {
 
 // `error`: of the robot, which sees the reference there.
 WheelSpeeds corrected(const Feed& feed, const Pose2& error, const DriveGeometry& geometry) {
-  const double v = feed.v_mps * std::cos(error.theta_rad) + kDriver.along * error.x_m;
+  const double v = feed.v_mps * cosine(error.theta_rad) + kDriver.along * error.x_m;
   const double w = feed.w_radps + kDriver.heading * error.theta_rad + across_gain(feed.v_mps) * error.y_m;
   const double half_m = geometry.wheelbase_m / 2;
   return {(v - w * half_m) / geometry.left_radius_m, (v + w * half_m) / geometry.right_radius_m};
@@ -82,9 +90,7 @@ int Plan::segment_at(double time_s, int hint) const {
 
 Reference Plan::at(double time_s, int segment_hint) const {
   const int i = segment_at(time_s, segment_hint);
-  const Segment& s = segments_[i];
-  const double part = part_at(s, time_s);
-  return {s.X_SB_start * arc(part * s.length_m, part * s.angle_rad), i};
+  return {pose_at(segments_[i], part_at(segments_[i], time_s)), i};
 }
 
 WheelSpeeds follow(const Pose2& X_SR_now, const Pose2& X_SR_next, double period_s, const Pose2& X_SB,
@@ -98,12 +104,13 @@ WheelSpeeds follow(const Pose2& X_SR_now, const Pose2& X_SR_next, double period_
 // As follow(), where the reference stays on one arc without its poses.
 WheelSpeeds drive(const Plan& plan, double time_s, double period_s, const Pose2& X_SB, const DriveGeometry& geometry,
                   int segment_hint) {
-  const Reference now = plan.at(time_s, segment_hint);
-  const int next = plan.segment_at(time_s + period_s, now.segment);
-  if (next != now.segment) return follow(now.X_SB, plan.at(time_s + period_s, next).X_SB, period_s, X_SB, geometry);
-  const Segment& s = plan.segments()[std::size_t(now.segment)];
-  const double rate = (part_at(s, time_s + period_s) - part_at(s, time_s)) / period_s;
-  return corrected({rate * s.length_m, rate * s.angle_rad}, seen_from(X_SB, now.X_SB), geometry);
+  const int now = plan.segment_at(time_s, segment_hint), next = plan.segment_at(time_s + period_s, now);
+  const Segment& s = plan.segments()[std::size_t(now)];
+  const double part = part_at(s, time_s);
+  const Pose2 X_SR = pose_at(s, part);
+  if (next != now) return follow(X_SR, plan.at(time_s + period_s, next).X_SB, period_s, X_SB, geometry);
+  const double rate = (part_at(s, time_s + period_s) - part) / period_s;
+  return corrected({rate * s.length_m, rate * s.angle_rad}, seen_from(X_SB, X_SR), geometry);
 }
 
 }  // namespace umbsim

@@ -332,8 +332,9 @@ TEST(Architecture, WalksGoForward) {
         const auto room = room_in(folder, s.file);
         if (!room || room->empty()) continue;
         std::string& last = room_of[folder];
-        if (!last.empty() && last != *room)
+        if (!last.empty() && last != *room) {
           EXPECT_EQ(rooms.may_include.at(last).count(*room), 0u) << "back from " << last;
+        }
         last = *room;
       }
     }
@@ -402,7 +403,8 @@ TEST(Architecture, TopLevelIsTheHousePlan) {
 TEST(Architecture, DataFoldersHoldDataOnly) {
   for (const auto& [folder, extension] : {std::pair{"scenarios", ".yaml"}, std::pair{"robots", ".urdf"}}) {
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
-      if (!entry.is_directory()) EXPECT_EQ(entry.path().extension(), extension) << entry.path();
+      if (entry.is_directory()) continue;
+      EXPECT_EQ(entry.path().extension(), extension) << entry.path();
     }
   }
 }

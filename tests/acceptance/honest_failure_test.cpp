@@ -166,8 +166,8 @@ INSTANTIATE_TEST_SUITE_P(All, ControlLoop,
                                          SlowLoop{"effects.encoder_sampling.interval_s", 0.4, false},
                                          SlowLoop{"effects.encoder_latency.seconds", 0.4, false},
                                          SlowLoop{"effects.motor_response.lag_s", 1.5, false}),
-                         [](const auto& info) {
-                           return std::regex_replace(info.param.key, std::regex("[^a-z]"), "_");
+                         [](const auto& loop) {
+                           return std::regex_replace(loop.param.key, std::regex("[^a-z]"), "_");
                          });
 
 TEST(SilentEffects, AreNamedWithWhatWouldMakeThemAct) {

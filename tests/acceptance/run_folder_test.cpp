@@ -170,7 +170,9 @@ TEST(RunFolder, SaysWhichFormWasApplied) {
     EXPECT_EQ(heading < endpoint, method == "heading") << run.out;
     const std::size_t applied = run.out.find("  applied\n");
     EXPECT_EQ(applied == std::string::npos, method == "none") << run.out;
-    if (method != "none") EXPECT_EQ(run.out.rfind('\n', applied), std::min(endpoint, heading)) << run.out;
+    if (method != "none") {
+      EXPECT_EQ(run.out.rfind('\n', applied), std::min(endpoint, heading)) << run.out;
+    }
     for (const char* form : {"endpoint", "heading"}) {
       const std::string trust = calibration.at(form).at("trust");
       expect_says(run.out, {"\n" + wrapped(std::string("  ") + form + ": " + trust, 4)});

@@ -43,8 +43,11 @@ void expect_compliance(const Rig& rig, double c, const PhysicsOptions& options =
   const double curved = std::pow(turn_radpm * distance_m, 2) / 6;  // an arc's chord is shorter by this
   const double expected = -c * load.wheels_n / 2 / kRadius_m - curved;
   expect_share("compliance: distance", drive.error().x_m / distance_m, expected, kLinear);
-  if (std::abs(turn_radpm) < 1e-12) EXPECT_NEAR(drive.error().theta_rad, 0, kRigid_rad);
-  else expect_share("compliance: heading", drive.error().theta_rad / distance_m, turn_radpm, kLinear);
+  if (std::abs(turn_radpm) < 1e-12) {
+    EXPECT_NEAR(drive.error().theta_rad, 0, kRigid_rad);
+  } else {
+    expect_share("compliance: heading", drive.error().theta_rad / distance_m, turn_radpm, kLinear);
+  }
 }
 
 TEST(TyreCompliance, RollingRadiusFollowsTheLoad) {

@@ -74,8 +74,9 @@ TEST(ProgressEstimate, NeverGoesBackAndEndsAtTheWhole) {
     for (const Moment& m : watched(trace)) {
       EXPECT_GE(m.fraction, before) << name;
       before = m.fraction;
-      if (m.really_left_s > 0)
+      if (m.really_left_s > 0) {
         EXPECT_LT(m.fraction, 1) << name << ": the whole, and " << m.really_left_s << " s are left";
+      }
     }
     EXPECT_EQ(before, 1) << name;
   }

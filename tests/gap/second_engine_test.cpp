@@ -95,7 +95,11 @@ INSTANTIATE_TEST_SUITE_P(Case, SecondEngine,
                                            Labelled{"case-10", "push", "impulse_newton_seconds", 22},
                                            Labelled{"case-11", "wheel_eccentricity", "right_m", 0.0015},
                                            Labelled{"case-14", "none"}),
-                         [](const auto& test) { return std::string(test.param.folder).replace(4, 1, "_"); });
+                         [](const auto& test) {
+                           std::string name = test.param.folder;
+                           name[4] = '_';
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace umbsim::gap

@@ -6,7 +6,8 @@
 namespace umbsim::property {
 
 /// A random but valid scenario, as its file: any key of docs/scenario.md within its bounds, up to three effects of the
-/// catalogue with any parameters. Short courses, one run each way. `mirrored`: nothing in it tells left from right.
+/// catalogue with any parameters. Short courses, one run each way. The same seed is the same scenario for one compiler:
+/// in which order the arguments of a call are drawn is the compiler's. `mirrored`: nothing in it tells left from right.
 struct Drawn {
   std::string yaml;
   bool mirrored = false;

@@ -16,7 +16,9 @@ namespace {
 
 constexpr std::uint64_t kFirstSeed = 30'000;
 constexpr int kUsual = 60;
-const std::vector<std::uint64_t> kOnceFailed = {};
+// A ton of payload on 42 kg, and slopes that friction does not hold, which the laws had not thought of.
+const std::vector<std::uint64_t> kOnceFailed = {30'189, 30'312, 30'476, 32'144, 32'266,
+                                                32'362, 33'331, 33'604, 33'893, 34'750};
 
 void expect_finite(const Json& json, const std::string& path) {
   if (json.is_structured()) {
@@ -26,19 +28,26 @@ void expect_finite(const Json& json, const std::string& path) {
   }
 }
 
-// A robot does not end farther away than it and its odometry can have gone, and no support pulls it down.
+// A robot does not end farther away than it and its odometry can have gone and the slope can have pulled it, and no
+// support pulls it down.
 void expect_plausible(const ExperimentResult& r) {
   const double way_m = 4 * r.scenario.course.side_m * r.scenario.course.laps;
-  for (const RunDigest& d : r.digests) {
-    EXPECT_TRUE(std::isfinite(d.error.x_m) && std::isfinite(d.error.y_m) && std::isfinite(d.error.theta_rad));
-    EXPECT_LT(std::hypot(d.error.x_m, d.error.y_m), 10 * (1 + way_m));
+  const Rig rig = rig_for(r.scenario, r.nominal, {"cw-1", Direction::cw});
+  ASSERT_EQ(r.digests.size(), r.strains.size());
+  for (std::size_t i = 0; i < r.digests.size(); ++i) {
+    const ReturnError& error = r.digests[i].error;
+    const double time_s = r.strains[i].time_s;
+    EXPECT_TRUE(std::isfinite(error.x_m) && std::isfinite(error.y_m) && std::isfinite(error.theta_rad));
+    const double slid_m =
+        r.scenario.physics.gravity_mps2 * std::abs(std::sin(rig.floor.slope_rad)) * time_s * time_s / 2;
+    EXPECT_LT(std::hypot(error.x_m, error.y_m), 10 * (1 + way_m) + slid_m);
   }
-  const double weight_n = r.nominal.total_mass_kg() * r.scenario.physics.gravity_mps2;
+  const double weight_n = rig.robot.total_mass_kg() * r.scenario.physics.gravity_mps2;  // with its payload
   for (const RunStrain& strain : r.strains) {
     EXPECT_GT(strain.time_s, 0);
     for (const WheelStrain& wheel : strain.wheel) {
       EXPECT_GE(wheel.least_n, -1e-6 * weight_n);
-      EXPECT_LT(wheel.mean_n, 10 * weight_n);  // payloads are the effects' own
+      EXPECT_LT(wheel.mean_n, 1.5 * weight_n);  // mostly half of it; a blow counts for a moment
       EXPECT_LE(wheel.unloaded_s, strain.time_s * (1 + 1e-9));
     }
   }

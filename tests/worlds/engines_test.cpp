@@ -196,7 +196,7 @@ std::vector<std::string> names() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Worlds, Engines, ::testing::ValuesIn(names()),
-                         [](const ::testing::TestParamInfo<std::string>& info) { return info.param; });
+                         [](const ::testing::TestParamInfo<std::string>& engine) { return engine.param; });
 
 // Shapes and solvers as users take them: each stands and rolls.
 TEST(Bullet, EveryShapeAndSolverRolls) {

@@ -184,8 +184,8 @@ TEST(WorldsList, TheListOfSixtySevenCasesIsComplete) {
   EXPECT_EQ(r.runs.size(), 12u);
   EXPECT_EQ(r.truth_position_sd_m, 0.0003);
   for (const RecordedRun& run : r.runs) {
-    if (run.turn_radius_m) EXPECT_EQ(*run.turn_radius_m, 0.4);
-    if (run.payload_kg) EXPECT_EQ(*run.payload_kg, 15);
+    EXPECT_EQ(run.turn_radius_m.value_or(0.4), 0.4);
+    EXPECT_EQ(run.payload_kg.value_or(15), 15);
   }
 }
 
