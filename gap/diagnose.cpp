@@ -117,11 +117,22 @@ void make_twin(const Work& w, bool unknown, Diagnosis& d) {
         fmt::format("the twin holds {} alone: the rest foretells held-out runs no better", d.twin.name()));
 }
 
-// On another engine's recordings what takes nothing away on held-out runs, and does not show in counts, is no cause: it
-// mends how the two engines' contacts differ. The combination with it stays behind, as not told apart.
+// Whether only contacts' effects of the explanation are not in the twin.
+bool twin_lacks_contacts_alone(const Diagnosis& d) {
+  const auto in_twin = [&](const std::string& effect) {
+    return std::any_of(d.twin.hypotheses.begin(), d.twin.hypotheses.end(),
+                       [&](const Hypothesis& h) { return h.effect == effect; });
+  };
+  return std::all_of(d.explanation.hypotheses.begin(), d.explanation.hypotheses.end(),
+                     [&](const Hypothesis& h) { return in_twin(h.effect) || !is_kinematic(h.effect); });
+}
+
+// On another engine's recordings a contact's effect beside others that takes nothing away on held-out runs, and does
+// not show in counts, is no cause: it mends how the two engines' contacts differ. The combination with it stays behind,
+// as not told apart.
 void name_what_foretells(const Work& w, Fit& best, Diagnosis& d) {
   if (d.twin_is_nominal() || d.twin.hypotheses.size() == d.explanation.hypotheses.size()) return;
-  if (w.model.same_engine(best)) return;
+  if (w.model.same_engine(best) || !twin_lacks_contacts_alone(d)) return;
   const double counts = w.model.counts_misfit(d.explanation.predicted);
   if (w.model.counts_misfit(d.twin.predicted) > counts + 2 * w.thresholds.addition) return;
   best = d.explanation = d.twin;
@@ -131,14 +142,15 @@ void name_what_foretells(const Work& w, Fit& best, Diagnosis& d) {
 // Whether another engine made recordings whose tracks stray by no more than noise makes them. What contacts do is no
 // gap then: they differ from engine to engine.
 bool hidden_in_noise(const Work& w, const Fit& fit, const Closure& closure) {
-  if (w.model.same_engine(fit) || closure.before_mm == 0 || closure.before_mm > closure.most_hidden_mm) return false;
+  const double most_mm = w.model.taken_for_another_engines() ? most_hidden_mm(w.model) : closure.most_noise_mm;
+  if (w.model.same_engine(fit) || closure.before_mm == 0 || closure.before_mm > most_mm) return false;
   // What comes again wherever runs pass the same places is the floor's.
   return w.excluded.count("uneven_floor") > 0 || !may_be_uneven_floor(w.model, w.none);
 }
 
 // The fit of what rolls, of what counts show, or of a place or moment that is all that is found.
 Fit without_contacts(const Model& model, Fit fit) {
-  if (fit.hypotheses.size() == 1 && fit.is_local()) return fit;
+  if (model.taken_for_another_engines() && fit.hypotheses.size() == 1 && fit.is_local()) return fit;
   const auto contact = [](const Hypothesis& h) { return is_contact(h.effect); };
   for (;;) {
     const auto at = std::find_if(fit.hypotheses.begin(), fit.hypotheses.end(), contact);
@@ -263,7 +275,8 @@ Diagnosis diagnose(Model& model, const std::set<std::string>& excluded, const Th
   Model another = model;
   another.take_for_another_engines();
   Diagnosis again = diagnosed(another, excluded, t, progress);
-  if ((cause.name == "unknown" || first.not_fitted) && again.detected) {
+  const bool hidden = !again.detected && again.before_mm <= most_hidden_mm(another);
+  if (first.not_fitted || (cause.name == "unknown" && !hidden)) {
     first.simulated_s = again.simulated_s;
     return first;
   }

@@ -41,6 +41,11 @@ std::vector<Pose2> driven(const Model& model, std::size_t run, const std::vector
 
 }  // namespace
 
+double most_hidden_mm(const Model& model) {
+  const double sum_m2 = most_by_noise(noise_misfits_m2(model, kDraws, true));
+  return 1000 * std::sqrt(sum_m2 / double(model.all_runs().size()));
+}
+
 Closure held_out_closure(const Model& model, const Fit& fit) {
   Closure closure;
   const std::size_t runs = model.all_runs().size();
@@ -95,10 +100,7 @@ Closure held_out_closure(const Model& model, const Fit& fit) {
   // Within the noise there is no gap to close, nor one that a cause between commands and ticks could close.
   const double most_noise_m2 = most_by_noise(noise);
   closure.known = before_sum_m2 > most_noise_m2 && before != after;
-  const auto root_mean_mm = [&](double sum_m2) { return 1000 * std::sqrt(sum_m2 / double(runs)); };
-  closure.most_noise_mm = root_mean_mm(most_noise_m2);
-  closure.most_hidden_mm = model.same_engine(fit) ? closure.most_noise_mm
-                                                  : root_mean_mm(most_by_noise(noise_misfits_m2(model, kDraws, true)));
+  closure.most_noise_mm = 1000 * std::sqrt(most_noise_m2 / double(runs));
   closure.fraction = closure.known ? fraction(model.all_runs()) : 0;
   RandomStream random(1, "closure");
   std::vector<double> resampled;

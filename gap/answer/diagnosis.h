@@ -47,10 +47,9 @@ struct Closure {
   double ci95[2] = {0, 0};  ///< bootstrap over runs
   double before_mm = 0;     ///< root mean square position error along the held-out runs
   double after_mm = 0;
-  double floor_mm = 0;        ///< of the run-to-run noise,
-  double most_noise_mm = 0;   ///< and what it exceeds once in twenty times
-  double most_hidden_mm = 0;  ///< the same with what engines differ by, on another's runs
-  double before_deg = 0;      ///< root mean square heading error at the ends
+  double floor_mm = 0;       ///< of the run-to-run noise,
+  double most_noise_mm = 0;  ///< and what it exceeds once in twenty times
+  double before_deg = 0;     ///< root mean square heading error at the ends
   double after_deg = 0;
   std::vector<Worth> worth;  ///< of each of the fit's hypotheses, beside the others
 

@@ -15,7 +15,8 @@ namespace {
 // mended by many an effect: of a contact, beside the effect that explains most, the least that is told from it is what
 // noise makes.
 double least_worth_mm2(const Model& model, const Fit& fit, std::size_t hypothesis, const Closure& closure) {
-  const bool contact = !model.same_engine(fit) && hypothesis > 0 && is_contact(fit.hypotheses[hypothesis].effect);
+  const bool contact =
+      model.taken_for_another_engines() && hypothesis > 0 && is_contact(fit.hypotheses[hypothesis].effect);
   return contact ? closure.floor_mm * closure.floor_mm : 0;
 }
 

@@ -102,6 +102,7 @@ class Model {
   /// From now on the runs are another engine's: it differs from this one as measured between engines, and single
   /// readings scatter by more, for contacts give way for a moment where a robot speeds up, stops and turns.
   void take_for_another_engines();
+  bool taken_for_another_engines() const { return scatter_.reading_m > 0; }
   double noise_floor_m() const { return noise_floor_m_; }
   bool replicated() const { return replicated_; }
   const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }

@@ -47,7 +47,7 @@ Diagnosis found(std::vector<Cause> causes) {
   d.detected = true;
   d.before_mm = 45.2;
   d.noise_floor_mm = 6.1;
-  d.closure = {true, 0.95, {0.9, 0.98}, 45.2, 11.1, 6.1, 8.0, 8.0, 3, 0.4, {{34.1, 2.6}}};
+  d.closure = {true, 0.95, {0.9, 0.98}, 45.2, 11.1, 6.1, 8.0, 3, 0.4, {{34.1, 2.6}}};
   d.causes = std::move(causes);
   d.twin = d.causes.front().fit;
   d.set = {d.causes.front().name};
