@@ -63,7 +63,11 @@ bool is_kinematic(const std::string& effect) {
   return effects.count(effect) > 0;
 }
 
-bool is_contact(const std::string& effect) { return !is_kinematic(effect) && !shows_in_counts(find_effect(effect)); }
+bool is_contact(const std::string& effect) {
+  const EffectInfo& info = find_effect(effect);
+  const bool of_contact = info.stage == Stage::contact || info.stage == Stage::floor;
+  return of_contact && !is_kinematic(effect) && !shows_in_counts(info);
+}
 
 bool is_dimension(const std::string& effect) {
   return effect == "wheel_radius_scale" || effect == "wheel_radius_difference" || effect == "wheelbase";

@@ -60,7 +60,8 @@ bool is_commanded_motion(const std::string& effect);
 /// another engine's robot, or a real one, shows it as ours does.
 bool is_kinematic(const std::string& effect);
 
-/// Whether it is neither that nor seen in the counts: what an engine's contacts make of it is its own.
+/// Whether it acts at a contact or on the floor, and is neither kinematic nor seen in the counts: what an engine's
+/// contacts make of it is its own.
 bool is_contact(const std::string& effect);
 
 /// Every hypothesis of the catalogue that needs no search for a place or moment.
