@@ -21,9 +21,9 @@ constexpr double kTrend = 1e-3;      // of a radius, per run
 constexpr double kOwnRadius = 2e-3;  // of a radius, in one run
 constexpr double kNothing = 1e-12;   // standard deviation of what is not there
 constexpr int kMostPatterns = 8;
-constexpr double kModels = 3;              // that are tried
+constexpr double kModels = 3;                // that are tried
 constexpr int kPatterns = kRipples + 2 + 2;  // ripples, drift, trends
-constexpr double kLate_s = 0.01;           // by which what was counted and what was seen may be apart
+constexpr double kLate_s = 0.01;             // by which what was counted and what was seen may be apart
 constexpr int kLate = 5;
 
 struct Raw {

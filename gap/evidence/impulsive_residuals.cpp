@@ -11,7 +11,7 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr std::size_t kStride = 2;                // truth samples between two candidates
+constexpr std::size_t kStride = 2;                   // truth samples between two candidates
 const Eigen::Vector3d kImpulseSd(0.02, 0.02, 0.05);  // prior size: metres, metres, radians
 constexpr double kLostSd_m = 0.003;
 constexpr double kWheelbase_m = 0.36;  // of a robot to which these lengths belong; others in proportion:

@@ -18,8 +18,6 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr int kFeatureRows = 8;  // three of a run, and five of the recording, which stand with the first run
-
 bool acts_on_counts(const std::vector<Effect>& effects) {
   return std::any_of(effects.begin(), effects.end(), [](const Effect& e) { return shows_in_counts(*e.info); });
 }
@@ -166,30 +164,6 @@ std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& se
   return all;
 }
 
-// With what counts against commands are measured; where they are judged alone, with what engines differ by.
-CountsSd Model::counts_sd(std::size_t run, bool alone) const {
-  const CommandResponse& measured = measured_.counted[run];
-  if (!measured.known) return CountsSd::Zero();
-  const double gain = std::hypot(scatter_.gain, measured.gain_sd, alone ? scatter_.engine_gain : 0);
-  return {gain, gain, alone ? scatter_.counts_lag_s : scatter_.run_lag_s};
-}
-
-// What differs between two of them, in standard deviations.
-Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const Predicted& b, bool alone) const {
-  Eigen::VectorXd rows = Eigen::VectorXd::Zero(kFeatureRows);
-  if (run == 0) {
-    for (std::size_t i = 0; i < a.command_features.size(); ++i) {
-      rows[3 + Eigen::Index(i)] = (a.command_features[i] - b.command_features[i]) / features_sd_[i];
-    }
-  }
-  const CommandResponse& x = a.counted[run];
-  const CommandResponse& y = b.counted[run];
-  if (!measured_.counted[run].known || !x.known || !y.known) return rows;
-  rows.head<3>() = CountsSd(x.left_gain - y.left_gain, x.right_gain - y.right_gain, x.lag_s - y.lag_s)
-                       .cwiseQuotient(counts_sd(run, alone));
-  return rows;
-}
-
 std::vector<Eigen::VectorXd> Model::residuals(const Predicted& predicted) const {
   std::vector<Eigen::VectorXd> result(recording().runs.size());
   tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t r) {
@@ -199,23 +173,6 @@ std::vector<Eigen::VectorXd> Model::residuals(const Predicted& predicted) const 
     result[r] << white, feature_rows(r, measured_, predicted, false);
   });
   return result;
-}
-
-double Model::counts_misfit(const Predicted& predicted) const {
-  double sum = 0;
-  for (std::size_t r = 0; r < recording().runs.size(); ++r)
-    sum += feature_rows(r, measured_, predicted, true).squaredNorm();
-  return sum;
-}
-
-double Model::command_features_misfit(const Predicted& predicted) const {
-  return feature_rows(0, measured_, predicted, true).tail(kFeatureRows - 3).squaredNorm();
-}
-
-double Model::count_rows() const {
-  double rows = double(std::tuple_size<CommandFeatures>::value);
-  for (const CommandResponse& counted : measured_.counted) rows += counted.known ? 3 : 0;
-  return rows;
 }
 
 std::vector<Eigen::MatrixXd> Model::columns(const Predicted& at, const std::vector<Predicted>& stepped,

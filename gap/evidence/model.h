@@ -188,6 +188,9 @@ class Model {
   double log_evidence(const Fit& fit, const std::vector<std::size_t>& runs) const;
 
  private:
+  // Three of a run, and five of the recording, which stand with the first run.
+  static constexpr int kFeatureRows = 8;
+
   void observe();
   std::vector<Eigen::MatrixXd> products_of_nuisances() const;
   double roughness_under(const std::vector<Effect>& effects) const;

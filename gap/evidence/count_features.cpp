@@ -1,0 +1,50 @@
+// Counts against commands, and how the robot was driven and read, as rows beside the tracks.
+#include <cmath>
+#include <tuple>
+
+#include "gap/evidence/model.h"
+
+namespace umbsim::gap {
+
+// With what counts against commands are measured; where they are judged alone, with what engines differ by.
+CountsSd Model::counts_sd(std::size_t run, bool alone) const {
+  const CommandResponse& measured = measured_.counted[run];
+  if (!measured.known) return CountsSd::Zero();
+  const double gain = std::hypot(scatter_.gain, measured.gain_sd, alone ? scatter_.engine_gain : 0);
+  return {gain, gain, alone ? scatter_.counts_lag_s : scatter_.run_lag_s};
+}
+
+// What differs between two of them, in standard deviations.
+Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const Predicted& b, bool alone) const {
+  Eigen::VectorXd rows = Eigen::VectorXd::Zero(kFeatureRows);
+  if (run == 0) {
+    for (std::size_t i = 0; i < a.command_features.size(); ++i) {
+      rows[3 + Eigen::Index(i)] = (a.command_features[i] - b.command_features[i]) / features_sd_[i];
+    }
+  }
+  const CommandResponse& x = a.counted[run];
+  const CommandResponse& y = b.counted[run];
+  if (!measured_.counted[run].known || !x.known || !y.known) return rows;
+  rows.head<3>() = CountsSd(x.left_gain - y.left_gain, x.right_gain - y.right_gain, x.lag_s - y.lag_s)
+                       .cwiseQuotient(counts_sd(run, alone));
+  return rows;
+}
+
+double Model::counts_misfit(const Predicted& predicted) const {
+  double sum = 0;
+  for (std::size_t r = 0; r < recording().runs.size(); ++r)
+    sum += feature_rows(r, measured_, predicted, true).squaredNorm();
+  return sum;
+}
+
+double Model::command_features_misfit(const Predicted& predicted) const {
+  return feature_rows(0, measured_, predicted, true).tail(kFeatureRows - 3).squaredNorm();
+}
+
+double Model::count_rows() const {
+  double rows = double(std::tuple_size<CommandFeatures>::value);
+  for (const CommandResponse& counted : measured_.counted) rows += counted.known ? 3 : 0;
+  return rows;
+}
+
+}  // namespace umbsim::gap
