@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gap/answer/answer_set.h"
 #include "gap/answer/closure.h"
@@ -22,9 +23,8 @@ namespace {
 
 constexpr double kWorthKnowing = 0.05;  // what effects explain, over the misfit that they leave
 constexpr std::size_t kSegments = 12;
-constexpr double kSurelyAnother =
-    30;                       // log evidence: right fits of this engine's runs have up to 18 (docs/gap-method.md)
-constexpr double kAhead = 1;  // log evidence of what is named for what it foretells
+constexpr double kSurelyAnother = 30;  // log evidence; right fits of this engine's runs have up to 18
+constexpr double kAhead = 1;           // log evidence of what is named for what it foretells
 
 std::vector<std::string> names_of(const Fit& fit) {
   std::vector<std::string> names;
@@ -280,7 +280,7 @@ Diagnosis diagnose(Model& model, const std::set<std::string>& excluded, const Th
     first.simulated_s = again.simulated_s;
     return first;
   }
-  model.take_for_another_engines();
+  model = std::move(another);
   return again;
 }
 

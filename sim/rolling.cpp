@@ -6,6 +6,8 @@
 // the same equations as A x + b = 0 of the general step (docs/physics.md), solved for u instead of the impulses
 // x = -C^-1 (J u + offset). Each contact enters as a tensor of three by three at its place. Where one slides, opens or
 // closes, its impulse is another function of the velocity, and Newton's method finds where all of them balance.
+//
+// The file is long because it is this one algorithm: its pieces share the state of a step and are of use to nothing else.
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

@@ -57,7 +57,7 @@ bool Fit::is_local() const {
 
 Model::Model(const Campaign& campaign, Simulator simulator, const Scatter& scatter,
              const std::optional<NoiseModel>& known)
-    : campaign_(campaign), simulator_(std::move(simulator)), scatter_(scatter), noises_(campaign.parts.size()) {
+    : campaign_(&campaign), simulator_(std::move(simulator)), scatter_(scatter), noises_(campaign.parts.size()) {
   const Recording& all = recording();
   const Recording& lead = campaign.parts[leading_part(campaign)];
   const double step = count_step(lead);
@@ -125,11 +125,11 @@ void Model::observe() {
 }
 
 std::string Model::condition(std::size_t run) const {
-  return std::to_string(campaign_.part_of[run]) + nominal_.conditions[run] + recording().runs[run].direction;
+  return std::to_string(campaign_->part_of[run]) + nominal_.conditions[run] + recording().runs[run].direction;
 }
 
 bool Model::tracker_is_free() const {
-  return std::any_of(campaign_.parts.begin(), campaign_.parts.end(), gap::tracker_is_free);
+  return std::any_of(campaign_->parts.begin(), campaign_->parts.end(), gap::tracker_is_free);
 }
 
 // Each grain of a floor makes wheels that scrub hold or give way. It moves no other robot's mean path.
@@ -269,7 +269,7 @@ std::vector<std::size_t> Model::one_of_each() const {
   std::vector<std::size_t> first;
   std::set<std::string> seen;
   for (const std::size_t r : all_runs()) {
-    if (seen.insert(std::to_string(campaign_.part_of[r]) + nominal_.conditions[r] + recording().runs[r].direction)
+    if (seen.insert(std::to_string(campaign_->part_of[r]) + nominal_.conditions[r] + recording().runs[r].direction)
             .second)
       first.push_back(r);
   }

@@ -83,13 +83,13 @@ class Model {
   Model(const Campaign& campaign, Simulator simulator, const Scatter& scatter,
         const std::optional<NoiseModel>& known = std::nullopt);
 
-  const Campaign& campaign() const { return campaign_; }
+  const Campaign& campaign() const { return *campaign_; }
   /// The robot and all runs.
-  const Recording& recording() const { return campaign_.all; }
+  const Recording& recording() const { return campaign_->all; }
   const NominalReplay& nominal() const { return nominal_; }
   /// Of the first recording.
   const NoiseModel& noise() const { return noises_.front().noise; }
-  const NoiseModel& noise(std::size_t run) const { return noises_[campaign_.part_of[run]].noise; }
+  const NoiseModel& noise(std::size_t run) const { return noises_[campaign_->part_of[run]].noise; }
   /// What is predicted as one when it is held out: runs of one recording, condition and direction.
   std::string condition(std::size_t run) const;
   bool tracker_is_free() const;  ///< of any recording
@@ -199,7 +199,7 @@ class Model {
   Linearisation linearised(const Fit& fit) const;
   void score(Fit& fit) const;
 
-  const Campaign& campaign_;
+  const Campaign* campaign_;
   Simulator simulator_;
   Scatter scatter_;
   double step_rad_ = 0;  // between two counts, as wide as they really are
