@@ -117,22 +117,24 @@ void make_twin(const Work& w, bool unknown, Diagnosis& d) {
         fmt::format("the twin holds {} alone: the rest foretells held-out runs no better", d.twin.name()));
 }
 
-// Whether only contacts' effects of the explanation are not in the twin.
-bool twin_lacks_contacts_alone(const Diagnosis& d) {
+// Whether only what mends contacts is in the explanation and not in the twin.
+bool twin_lacks_contacts_alone(const Model& model, const Diagnosis& d) {
   const auto in_twin = [&](const std::string& effect) {
     return std::any_of(d.twin.hypotheses.begin(), d.twin.hypotheses.end(),
                        [&](const Hypothesis& h) { return h.effect == effect; });
   };
   return std::all_of(d.explanation.hypotheses.begin(), d.explanation.hypotheses.end(),
-                     [&](const Hypothesis& h) { return in_twin(h.effect) || !is_kinematic(h.effect); });
+                     [&](const Hypothesis& h) {
+                       return in_twin(h.effect) || !is_kinematic(h.effect) || mends_contacts(model, h.effect);
+                     });
 }
 
-// On another engine's recordings a contact's effect beside others that takes nothing away on held-out runs, and does
-// not show in counts, is no cause: it mends how the two engines' contacts differ. The combination with it stays behind,
+// On another engine's recordings a contact's effect, or a dimension, beside others that takes nothing away on held-out
+// runs, and does not show in counts, is no cause: it mends how the two engines' contacts differ. The combination with it stays behind,
 // as not told apart.
 void name_what_foretells(const Work& w, Fit& best, Diagnosis& d) {
   if (d.twin_is_nominal() || d.twin.hypotheses.size() == d.explanation.hypotheses.size()) return;
-  if (w.model.same_engine(best) || !twin_lacks_contacts_alone(d)) return;
+  if (w.model.same_engine(best) || !twin_lacks_contacts_alone(w.model, d)) return;
   const double counts = w.model.counts_misfit(d.explanation.predicted);
   if (w.model.counts_misfit(d.twin.predicted) > counts + 2 * w.thresholds.addition) return;
   best = d.explanation = d.twin;
@@ -142,15 +144,18 @@ void name_what_foretells(const Work& w, Fit& best, Diagnosis& d) {
 // Whether another engine made recordings whose tracks stray by no more than noise makes them. What contacts do is no
 // gap then: they differ from engine to engine.
 bool hidden_in_noise(const Work& w, const Fit& fit, const Closure& closure) {
-  const double most_mm = w.model.taken_for_another_engines() ? most_hidden_mm(w.model) : closure.most_noise_mm;
-  if (w.model.same_engine(fit) || closure.before_mm == 0 || closure.before_mm > most_mm) return false;
+  if (w.model.taken_for_another_engines()) {
+    if (1000 * std::sqrt(mean_square_error_m2(w.model, w.none.predicted.tracks)) > most_hidden_mm(w.model)) return false;
+  } else if (w.model.same_engine(fit) || closure.before_mm == 0 || closure.before_mm > closure.most_noise_mm) {
+    return false;
+  }
   // What comes again wherever runs pass the same places is the floor's.
   return w.excluded.count("uneven_floor") > 0 || !may_be_uneven_floor(w.model, w.none);
 }
 
-// The fit of what rolls, of what counts show, or of a place or moment that is all that is found.
-Fit without_contacts(const Model& model, Fit fit) {
-  if (model.taken_for_another_engines() && fit.hypotheses.size() == 1 && fit.is_local()) return fit;
+// The fit of what rolls, of what counts show, or of a place or moment that is all that is found, and closes a gap.
+Fit without_contacts(const Model& model, Fit fit, const Closure& closure) {
+  if (model.taken_for_another_engines() && closure.known && fit.hypotheses.size() == 1 && fit.is_local()) return fit;
   const auto contact = [](const Hypothesis& h) { return is_contact(h.effect); };
   for (;;) {
     const auto at = std::find_if(fit.hypotheses.begin(), fit.hypotheses.end(), contact);
@@ -162,7 +167,7 @@ Fit without_contacts(const Model& model, Fit fit) {
 // Leaves what contacts do within the noise of another engine's recordings out. Whether anything stays.
 bool name_beside_noise(const Work& w, Fit& best, Diagnosis& d) {
   const std::size_t effects = best.hypotheses.size();
-  best = without_contacts(w.model, best);
+  best = without_contacts(w.model, best, d.closure);
   if (best.hypotheses.size() < effects || effects == 0)
     d.limits.push_back(
         "no track strays by more than noise makes it: how engines' contacts differ is not told from an effect");
@@ -274,7 +279,10 @@ Diagnosis diagnose(Model& model, const std::set<std::string>& excluded, const Th
   if (model.another_engine(cause.fit) < kSurelyAnother) return first;
   Model another = model;
   another.take_for_another_engines();
-  Diagnosis again = diagnosed(another, excluded, t, progress);
+  const ProgressCallback progress_again = [&](const std::string& stage, double share) {
+    progress("for another engine: " + stage, share);
+  };
+  Diagnosis again = diagnosed(another, excluded, t, progress_again);
   const bool hidden = !again.detected && again.before_mm <= most_hidden_mm(another);
   if (first.not_fitted || (cause.name == "unknown" && !hidden)) {
     first.simulated_s = again.simulated_s;

@@ -12,15 +12,18 @@ namespace umbsim::gap {
 namespace {
 
 // By how many mm^2 an effect must bring held-out runs nearer. What another engine's contacts do otherwise than these is
-// mended by many an effect: of a contact, beside the effect that explains most, the least that is told from it is what
-// noise makes.
+// mended by many an effect: beside the one that explains most, of a contact or a dimension the least that is told from it
+// is what noise makes.
 double least_worth_mm2(const Model& model, const Fit& fit, std::size_t hypothesis, const Closure& closure) {
-  const bool contact =
-      model.taken_for_another_engines() && hypothesis > 0 && is_contact(fit.hypotheses[hypothesis].effect);
-  return contact ? closure.floor_mm * closure.floor_mm : 0;
+  const bool mends = hypothesis > 0 && mends_contacts(model, fit.hypotheses[hypothesis].effect);
+  return mends ? closure.floor_mm * closure.floor_mm : 0;
 }
 
 }  // namespace
+
+bool mends_contacts(const Model& model, const std::string& effect) {
+  return model.taken_for_another_engines() && (is_contact(effect) || is_dimension(effect));
+}
 
 std::vector<Effect> twin_effects(const Fit& fit) {
   std::vector<Effect> effects;
@@ -42,11 +45,17 @@ void add_nothing(Closure& closure) {
 }
 
 // What an explanation leaves may be an error of its model: of a contact's, which differs from engine to engine, or of a
-// tracker's whose frame and clock are free. A place or a moment mends a part of any misfit.
+// tracker's whose frame and clock are free. A place or a moment mends a part of any misfit: what it takes away is not
+// counted.
 bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure) {
-  if (!closure.known || fit.is_local()) return false;
-  if (!model.tracker_is_free()) return !fit.is_kinematic() && closure.together().mm > closure.after_mm;
-  return closure.after_mm <= closure.most_noise_mm || closure.together().mm > closure.after_mm;
+  if (!closure.known || (fit.is_local() && fit.hypotheses.size() == 1)) return false;
+  double worth_mm = closure.together().mm;
+  for (std::size_t i = 0; i < fit.hypotheses.size(); ++i) {
+    if (fit.hypotheses[i].search_cost > 0) worth_mm -= std::max(0.0, closure.worth[i].mm);
+  }
+  const bool more = worth_mm > closure.after_mm;
+  if (!model.tracker_is_free()) return !fit.is_kinematic() && more;
+  return more || (!fit.is_local() && closure.after_mm <= closure.most_noise_mm);
 }
 
 void keep_what_foretells(const Model& model, Fit& twin, Closure& closure) {

@@ -7,6 +7,9 @@
 
 namespace umbsim::gap {
 
+/// Whether an effect moves robots as another engine's contacts do: at a contact, or with every metre or turn.
+bool mends_contacts(const Model& model, const std::string& effect);
+
 /// The effects of a fit that can be simulated: without those of which only the strength is known.
 std::vector<Effect> twin_effects(const Fit& fit);
 
@@ -17,8 +20,8 @@ void add_nothing(Closure& closure);
 /// what it leaves of the evidence may be an error of its model.
 bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure);
 
-/// Takes out the effects that foretell held-out runs worse than the others do alone, and on another engine's runs a
-/// contact's beside them that foretells too little to be told from noise. `closure` becomes that of what stays.
+/// Takes out the effects that foretell held-out runs worse than the others do alone, and on another engine's runs those
+/// beside them that mend its contacts and foretell too little to be told from noise. `closure` becomes that of what stays.
 void keep_what_foretells(const Model& model, Fit& twin, Closure& closure);
 
 /// What the twin leaves, and what the catalogue would make of it. `leftover`: log evidence for errors of no particular

@@ -103,10 +103,7 @@ double Model::another_engine(const Fit& fit) const {
 
 void Model::take_for_another_engines() {
   scatter_ = between_engines(scatter_);
-  for (NoiseEstimate& estimate : noises_) {
-    estimate.noise.position_sd_m = std::hypot(estimate.noise.position_sd_m, scatter_.reading_m);
-    estimate.noise.heading_sd_rad = std::hypot(estimate.noise.heading_sd_rad, scatter_.reading_rad);
-  }
+  taken_for_another_engines_ = true;
   observe();
   nuisances_.shared_sds.resize(1);
 }

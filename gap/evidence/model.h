@@ -99,10 +99,9 @@ class Model {
   bool engine_is_open() const { return nuisances_.shared_sds.size() > 1; }
   /// By how much log evidence a fit says that another engine made the runs; 0 where it is not open.
   double another_engine(const Fit& fit) const;
-  /// From now on the runs are another engine's: it differs from this one as measured between engines, and single
-  /// readings scatter by more, for contacts give way for a moment where a robot speeds up, stops and turns.
+  /// From now on the runs are another engine's: it differs from this one as measured between engines.
   void take_for_another_engines();
-  bool taken_for_another_engines() const { return scatter_.reading_m > 0; }
+  bool taken_for_another_engines() const { return taken_for_another_engines_; }
   double noise_floor_m() const { return noise_floor_m_; }
   bool replicated() const { return replicated_; }
   const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }
@@ -202,6 +201,7 @@ class Model {
   const Campaign* campaign_;
   Simulator simulator_;
   Scatter scatter_;
+  bool taken_for_another_engines_ = false;
   double step_rad_ = 0;  // between two counts, as wide as they really are
   std::vector<std::vector<Stretch>> stretches_;
   Predicted measured_;  // what was recorded, without tracks

@@ -130,8 +130,6 @@ Scatter between_engines(Scatter scatter) {
   scatter.slip_share = 1;
   scatter.lead_s = 0.015;
   scatter.engine_gain = 1e-3;
-  scatter.reading_m = 1e-3;
-  scatter.reading_rad = 5e-4;
   return scatter;
 }
 

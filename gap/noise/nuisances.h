@@ -33,8 +33,6 @@ struct Scatter {
   double lag_s = 0.006;        ///< of counts behind commands, alike in all runs
   double run_lag_s = 0.003;    ///< the same from run to run
   double counts_lag_s = 0.010;  ///< the same of any run, where counts alone are judged
-  double reading_m = 0;         ///< of single readings of the pose: contacts that give way for a moment,
-  double reading_rad = 0;       ///< and of the heading
   double same_engine = 0.1;     ///< share of what engines differ by that is left where both are the same
 };
 

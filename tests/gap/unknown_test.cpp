@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "gap/answer/twin.h"
 #include "gap/evidence/generic.h"
 #include "gap/evidence/impulsive_residuals.h"
 #include "gap/plan/ties.h"
@@ -81,6 +82,39 @@ TEST(Unknown, AnExcludedDoubleIsListedAsSuch) {
   });
   EXPECT_TRUE(listed);
   EXPECT_EQ(std::count(ties.members.begin(), ties.members.end(), "wheel_radius_scale"), 0);
+}
+
+// A cable mends a part of any misfit: what it takes away does not speak for what is named beside it.
+TEST(Unknown, WhatAPlaceTakesAwayIsNotCounted) {
+  const Subject p(campaign({}, 64));
+  Fit fit;
+  for (const Hypothesis& f : plain_hypotheses(0.02, 2000)) {
+    if (f.effect == "wheelbase") fit.hypotheses.push_back(f);
+  }
+  fit.hypotheses.push_back(bump_hypothesis(1, 0, 0));
+  Closure closure;
+  closure.known = true;
+  closure.before_mm = 40;
+  closure.after_mm = 10;
+  closure.worth = {{25, 0}, {5, 0}};
+  EXPECT_TRUE(worth_more_than_rest(p.model, fit, closure));
+  closure.worth = {{5, 0}, {25, 0}};
+  EXPECT_FALSE(worth_more_than_rest(p.model, fit, closure));
+  std::rotate(fit.hypotheses.begin(), fit.hypotheses.begin() + 1, fit.hypotheses.end());
+  fit.hypotheses.pop_back();
+  closure.worth = {{30, 0}};
+  EXPECT_FALSE(worth_more_than_rest(p.model, fit, closure)) << "a place alone";
+}
+
+// On another engine's runs a radius or a wheelbase may mend its contacts. On this engine's they do not.
+TEST(Unknown, DimensionsAndContactsMendAnotherEngine) {
+  Subject p(campaign({}, 65));
+  EXPECT_FALSE(mends_contacts(p.model, "wheelbase"));
+  p.model.take_for_another_engines();
+  for (const char* effect : {"wheelbase", "wheel_radius_scale", "tyre_creep", "slippery_floor"})
+    EXPECT_TRUE(mends_contacts(p.model, effect)) << effect;
+  for (const char* effect : {"wear", "encoder_latency", "wheel_eccentricity", "fast_turning"})
+    EXPECT_FALSE(mends_contacts(p.model, effect)) << effect;
 }
 
 }  // namespace
