@@ -12,11 +12,13 @@ namespace umbsim::gap {
 namespace {
 
 // By how many mm^2 an effect must bring held-out runs nearer. What another engine's contacts do otherwise than these is
-// mended by many an effect: beside the one that explains most, of a contact or a dimension the least that is told from it
-// is what noise makes.
+// mended by many an effect: beside the one that explains most, a contact or a dimension must take away what noise
+// makes, and, if it acts everywhere as contacts do, as much as nothing explains.
 double least_worth_mm2(const Model& model, const Fit& fit, std::size_t hypothesis, const Closure& closure) {
-  const bool mends = hypothesis > 0 && mends_contacts(model, fit.hypotheses[hypothesis].effect);
-  return mends ? closure.floor_mm * closure.floor_mm : 0;
+  const Hypothesis& h = fit.hypotheses[hypothesis];
+  if (hypothesis == 0 || !mends_contacts(model, h.effect)) return 0;
+  const double least_mm = h.search_cost > 0 ? closure.floor_mm : std::max(closure.floor_mm, closure.after_mm);
+  return least_mm * least_mm;
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ void add_nothing(Closure& closure);
 bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure);
 
 /// Takes out the effects that foretell held-out runs worse than the others do alone, and on another engine's runs those
-/// beside them that mend its contacts and foretell too little to be told from noise. `closure` becomes that of what stays.
+/// beside them that mend its contacts and take away too little to be told from noise and from what nothing explains.
+/// `closure` becomes that of what stays.
 void keep_what_foretells(const Model& model, Fit& twin, Closure& closure);
 
 /// What the twin leaves, and what the catalogue would make of it. `leftover`: log evidence for errors of no particular
