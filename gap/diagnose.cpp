@@ -118,7 +118,7 @@ void make_twin(const Work& w, bool unknown, Diagnosis& d) {
 }
 
 // Whether only what mends contacts is in the explanation and not in the twin.
-bool twin_lacks_contacts_alone(const Model& model, const Diagnosis& d) {
+bool twin_lacks_mends_alone(const Model& model, const Diagnosis& d) {
   const auto in_twin = [&](const std::string& effect) {
     return std::any_of(d.twin.hypotheses.begin(), d.twin.hypotheses.end(),
                        [&](const Hypothesis& h) { return h.effect == effect; });
@@ -129,12 +129,12 @@ bool twin_lacks_contacts_alone(const Model& model, const Diagnosis& d) {
                      });
 }
 
-// On another engine's recordings a contact's effect, or a dimension, beside others that takes nothing away on held-out
-// runs, and does not show in counts, is no cause: it mends how the two engines' contacts differ. The combination with it stays behind,
-// as not told apart.
+// On another engine's recordings a contact's effect, or a dimension, beside others that takes too little away on
+// held-out runs, and does not show in counts, is no cause: it mends how the two engines' contacts differ. The
+// combination with it stays behind, as not told apart.
 void name_what_foretells(const Work& w, Fit& best, Diagnosis& d) {
   if (d.twin_is_nominal() || d.twin.hypotheses.size() == d.explanation.hypotheses.size()) return;
-  if (w.model.same_engine(best) || !twin_lacks_contacts_alone(w.model, d)) return;
+  if (w.model.same_engine(best) || !twin_lacks_mends_alone(w.model, d)) return;
   const double counts = w.model.counts_misfit(d.explanation.predicted);
   if (w.model.counts_misfit(d.twin.predicted) > counts + 2 * w.thresholds.addition) return;
   best = d.explanation = d.twin;
@@ -145,7 +145,8 @@ void name_what_foretells(const Work& w, Fit& best, Diagnosis& d) {
 // gap then: they differ from engine to engine.
 bool hidden_in_noise(const Work& w, const Fit& fit, const Closure& closure) {
   if (w.model.taken_for_another_engines()) {
-    if (1000 * std::sqrt(mean_square_error_m2(w.model, w.none.predicted.tracks)) > most_hidden_mm(w.model)) return false;
+    const double before_mm = 1000 * std::sqrt(mean_square_error_m2(w.model, w.none.predicted.tracks));
+    if (before_mm > most_hidden_mm(w.model)) return false;
   } else if (w.model.same_engine(fit) || closure.before_mm == 0 || closure.before_mm > closure.most_noise_mm) {
     return false;
   }

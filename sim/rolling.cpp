@@ -7,7 +7,8 @@
 // x = -C^-1 (J u + offset). Each contact enters as a tensor of three by three at its place. Where one slides, opens or
 // closes, its impulse is another function of the velocity, and Newton's method finds where all of them balance.
 //
-// The file is long because it is this one algorithm: its pieces share the state of a step and are of use to nothing else.
+// The file is long because it is this one algorithm: its pieces share the state of a step and are of use to nothing
+// else.
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

@@ -50,7 +50,7 @@ void add_nothing(Closure& closure) {
 // tracker's whose frame and clock are free. A place or a moment mends a part of any misfit: what it takes away is not
 // counted.
 bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure) {
-  if (!closure.known || (fit.is_local() && fit.hypotheses.size() == 1)) return false;
+  if (!closure.known) return false;
   double worth_mm = closure.together().mm;
   for (std::size_t i = 0; i < fit.hypotheses.size(); ++i) {
     if (fit.hypotheses[i].search_cost > 0) worth_mm -= std::max(0.0, closure.worth[i].mm);
