@@ -13,7 +13,6 @@ using Eigen::Vector2d;
 
 constexpr double kTolerance = 1e-11;       // on impulses, relative to the largest one
 constexpr double kGoodEnough = 1e-6;       // of Gauss-Seidel, where contacts barely slide and Newton finds no better
-constexpr double kConeSlack = 1e-12;       // relative: a stick impulse exactly on the cone is still sticking
 constexpr int kNewtonIterations = 40;
 constexpr int kHalvings = 6;
 constexpr int kSweeps = 3000;

@@ -6,6 +6,8 @@ namespace umbsim {
 
 /// Rows that the solver can hold: eight contacts with friction, and eight bounded rows.
 constexpr int kMaxRows = 32;
+/// Relative: a stick impulse exactly on the cone is still sticking.
+constexpr double kConeSlack = 1e-12;
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kMaxRows, kMaxRows>;
 using RowVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRows, 1>;
 

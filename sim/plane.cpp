@@ -20,8 +20,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kConeSlack = 1e-12;  // as that of the contact solver
-
 void add_product(Matrix3d& sum, const Vector3d& a, const Vector3d& b) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j <= i; ++j) sum(i, j) += a[i] * b[j];

@@ -22,7 +22,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kRounds = 6;
-constexpr double kConeSlack = 1e-12;    // as that of the contact solver
 constexpr double kFastestKick_mps = 1;  // that a push may give in a step, where it makes contacts doubtful
 
 // A bounded row: side 0 where it holds, else -1 or 1, at its limit. Returns its impulse; true in `changes` where it is

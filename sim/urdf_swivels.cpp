@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kParallel_rad = 0.1;
 // Two wheels of one caster have one radius, within this share.
-constexpr double kSameRadius = 0.05;
+constexpr double kSameAxle = 0.05;
 // A caster wheel is at most this many drive wheel radii high.
 constexpr double kLargest_radii = 1.5;
 
@@ -59,8 +59,8 @@ void join_twins(const UrdfSource& source, const std::vector<Body>& bodies, const
     const Eigen::Vector3d line = other.centre_m - first.centre_m;
     const Eigen::Vector3d& axis = bodies[wheels[0]].axis;
     const double off_m = (line - line.dot(axis) * axis).norm();
-    if (axis.cross(body.axis).norm() > std::sin(kParallel_rad) || off_m > kSameRadius * first.radius_m ||
-        std::abs(other.radius_m - first.radius_m) > kSameRadius * first.radius_m) {
+    if (axis.cross(body.axis).norm() > std::sin(kParallel_rad) || off_m > kSameAxle * first.radius_m ||
+        std::abs(other.radius_m - first.radius_m) > kSameAxle * first.radius_m) {
       source.fail_at_link(body.link,
                           fmt::format("a second wheel on the floor behind the swivel {}, not beside the first on one "
                                       "axle with one radius; a caster has one wheel, or twins",

@@ -42,6 +42,9 @@ struct TrackerFit {
   double clock_rate = 0;
 };
 
+/// Degrees of freedom of what is known, not estimated: a noise model, a belief.
+constexpr double kManyDegrees = 1e6;
+
 /// Covariance of the factors that one kind of runs brings about, with its degrees of freedom.
 struct CovariancePart {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();

@@ -7,7 +7,7 @@ namespace umbsim::gap {
 namespace {
 
 constexpr double kGoodPart = 0.3;      // of what a combination explains, for one of its effects alone
-constexpr double kHint = 3;            // log evidence of what is too small to be named, or does not pay
+constexpr double kWorthSaying = 3;     // log evidence of what is too small to be named, or does not pay
 constexpr std::size_t kMostFaint = 2;  // effects that stand beside "none", whatever evidence they have
 constexpr double kAlikeFaint = 10;     // times the smallest p-value
 
@@ -63,7 +63,7 @@ void add_doubtful(const std::vector<Fit>& doubtful, const Fit& none, Diagnosis& 
   const double known = nothing ? none.log_evidence : first.fit.log_evidence;
   const Fit* likeliest = nullptr;
   for (const Fit& f : doubtful) {
-    if (f.hypotheses.size() != effects || f.log_evidence < known + kHint) continue;
+    if (f.hypotheses.size() != effects || f.log_evidence < known + kWorthSaying) continue;
     if (!nothing && !holds_all(f, first.fit)) continue;
     if (!likeliest || f.log_evidence > likeliest->log_evidence) likeliest = &f;
   }

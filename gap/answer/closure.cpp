@@ -12,7 +12,7 @@ namespace umbsim::gap {
 namespace {
 
 constexpr int kResamples = 1000;
-constexpr int kDraws = 200;  // of noise
+constexpr int kNoiseDraws = 200;
 
 double mean(const std::vector<double>& values) {
   double sum = 0;
@@ -22,12 +22,12 @@ double mean(const std::vector<double>& values) {
 
 // The largest sum over the runs that noise alone makes, but for one draw in twenty.
 double most_by_noise(const std::vector<std::vector<double>>& draws) {
-  std::vector<double> sums(kDraws, 0.0);
+  std::vector<double> sums(kNoiseDraws, 0.0);
   for (const auto& run : draws) {
-    for (int i = 0; i < kDraws; ++i) sums[std::size_t(i)] += run[std::size_t(i)];
+    for (int i = 0; i < kNoiseDraws; ++i) sums[std::size_t(i)] += run[std::size_t(i)];
   }
   std::sort(sums.begin(), sums.end());
-  return sums[kDraws - 1 - kDraws / 20];
+  return sums[kNoiseDraws - 1 - kNoiseDraws / 20];
 }
 
 // With the numbers of fewer runs, or if the robot cannot be driven with these, with those of all.
@@ -42,7 +42,7 @@ std::vector<Pose2> driven(const Model& model, std::size_t run, const std::vector
 }  // namespace
 
 double most_hidden_mm(const Model& model) {
-  const double sum_m2 = most_by_noise(noise_misfits_m2(model, kDraws, true));
+  const double sum_m2 = most_by_noise(noise_misfits_m2(model, kNoiseDraws, true));
   return 1000 * std::sqrt(sum_m2 / double(model.all_runs().size()));
 }
 
@@ -56,7 +56,7 @@ Closure held_out_closure(const Model& model, const Fit& fit) {
   if (fit.hypotheses.empty() || conditions.size() < 2) return closure;
   std::vector<double> before(runs);
   std::vector<double> after(runs);
-  const auto noise = noise_misfits_m2(model, kDraws);
+  const auto noise = noise_misfits_m2(model, kNoiseDraws);
   std::vector<double> floor(runs);
   const std::size_t parts = fit.hypotheses.size();
   std::vector<TrackMisfit> without(parts);  // sums over the runs

@@ -11,7 +11,7 @@ namespace umbsim::gap {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int kDraws = 2000;
+constexpr int kParameterDraws = 2000;
 // What a replay is off by that no residual shows, standard deviations, from development trials (docs/gap.md).
 constexpr double kReplayShare = 0.03;  // of a size, against its neutral value
 constexpr double kScrubShare = 0.08;   // of toe: the floor's roughness, which lets the wheels slip, is known to a fifth
@@ -41,7 +41,7 @@ std::vector<ParameterEstimate> parameter_estimates(const Fit& fit, double overdi
   const Eigen::MatrixXd root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
   RandomStream random(1, "parameter intervals");
   std::vector<Eigen::VectorXd> draws;
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < kParameterDraws; ++i) {
     Eigen::VectorXd z(fit.p.size());
     for (Eigen::Index j = 0; j < z.size(); ++j) z[j] = random.normal();
     draws.push_back(fit.p + root * z);
@@ -70,9 +70,9 @@ std::vector<ParameterEstimate> parameter_estimates(const Fit& fit, double overdi
            info.parameters[k].name,
            info.parameters[k].unit,
            best_k,
-           {std::max(std::min(best_k, possible.min), best_k - std::hypot(best_k - values[kDraws / 40], replay)),
+           {std::max(std::min(best_k, possible.min), best_k - std::hypot(best_k - values[kParameterDraws / 40], replay)),
             std::min(std::max(best_k, possible.max),
-                     best_k + std::hypot(values[kDraws - 1 - kDraws / 40] - best_k, replay))}});
+                     best_k + std::hypot(values[kParameterDraws - 1 - kParameterDraws / 40] - best_k, replay))}});
     }
     at += n;
   }

@@ -9,7 +9,7 @@ namespace umbsim::gap {
 namespace {
 
 constexpr double kScatter = 5e-5;  // of radii from run to run; sizes are not asked for here
-constexpr int kDraws = 200;
+constexpr int kRaceDraws = 200;
 constexpr std::size_t kMostKinds = 3;
 
 bool holds(const std::vector<std::string>& names, const std::string& name) {
@@ -120,7 +120,7 @@ Ties find_ties(const Model& model, const Diagnosis& d, const std::set<std::strin
         if (expected_lead(left, signatures.all, rival, effect) <= seen) group.push_back(info.name);
         continue;
       }
-      const Race race = race_among({truth, rival}, left, signatures.all, t, {0, kDraws, 1});
+      const Race race = race_among({truth, rival}, left, signatures.all, t, {0, kRaceDraws, 1});
       if ((race.mistaken(0, 1) + race.mistaken(1, 0)) / 2 <= alike) continue;
       group.push_back(info.name);
       add(info.name, rival);

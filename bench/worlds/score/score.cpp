@@ -15,7 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxAnswerBytes = 256 * 1024 * 1024;
 constexpr const char* kGroups[] = {"engine", "driver", "tracker", "runs", "robot"};
 
 double leaning(const Diagnosis& d) {

@@ -13,7 +13,6 @@ namespace umbsim::calibration {
 namespace {
 
 constexpr int kRounds = 3;  // parameters and noise in turn
-constexpr double kManyDegrees = 1e6;  // of freedom, of a noise model
 
 // Normal equations of every run in the common unknowns, its start eliminated.
 struct Reduced {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kParts = 8;
 constexpr int kRounds = 20;
-constexpr double kDone = 1e-8;
+constexpr double kStepDone = 1e-8;
 constexpr double kFirst_m = 0.0005;        // k to begin with, m per sqrt(m)
 constexpr double kLeastPosition_m = 1e-4;  // of the tracker, where the recording says less
 constexpr double kLeastHeading_rad = 1e-4;
@@ -145,7 +145,7 @@ Fit fit_kelly(const Runs& runs, const OdometryParameters& nominal) {
     for (auto& [recording, turned] : state.turned_rad) turned += scale.step[column++];
     if (!state.factors.allFinite() || state.factors.norm() > 2)
       throw NotApplicable("the fit runs away: the paths do not tell the parameters");
-    if (round > 3 && scale.step.norm() < kDone) break;
+    if (round > 3 && scale.step.norm() < kStepDone) break;
   }
   fit.factors = state.factors;
   const Eigen::Matrix2d covariance = information.inverse();

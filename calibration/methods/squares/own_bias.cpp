@@ -8,7 +8,7 @@ namespace umbsim::calibration {
 namespace {
 
 constexpr int kMostSteps = 200;
-constexpr double kDone = 1e-12;
+constexpr double kMoveDone = 1e-12;
 
 // A move that the odometry takes for an arc, as a robot of these factors makes it.
 Pose2 moved(double way_m, double turn_rad, double wheelbase_m, const LogFactors& truth) {
@@ -52,7 +52,7 @@ std::optional<LogFactors> own_bias(const std::vector<SquareCourse>& courses, con
     const LogFactors move = missing - LogFactors(scale, scale, 0);
     robot += move;
     if (!robot.allFinite() || robot.norm() > 1) return std::nullopt;
-    if (move.norm() < kDone) return answer - robot;
+    if (move.norm() < kMoveDone) return answer - robot;
   }
   return std::nullopt;
 }

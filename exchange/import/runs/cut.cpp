@@ -13,7 +13,6 @@
 namespace umbsim::exchange {
 namespace {
 
-constexpr double kRest_s = 1;     // of a standstill that is kept at either end of a run
 constexpr double kLeast_m = 0.1;  // what a wheel turns less is no run
 
 // What the wheels made of a piece.
@@ -42,11 +41,11 @@ Cut at_standstills(const RecordedRun& log, const RecordedRobot& robot, double st
   bool moving = false;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (parts_runs(all[i], still_s)) {
-      if (moving) cut.pieces.back().to_s = std::min(all[i].end_s, all[i].start_s + std::min(kRest_s, still_s / 2));
+      if (moving) cut.pieces.back().to_s = std::min(all[i].end_s, all[i].start_s + std::min(kRestOfRun_s, still_s / 2));
       moving = false;
     } else {
       if (!moving) {
-        const double rest = i > 0 ? std::min(kRest_s, still_s / 2) : 0;
+        const double rest = i > 0 ? std::min(kRestOfRun_s, still_s / 2) : 0;
         cut.pieces.push_back({"", "free", all[i].start_s - rest, all[i].end_s, 0, 0});
       }
       cut.pieces.back().to_s = all[i].end_s;

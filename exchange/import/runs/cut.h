@@ -9,6 +9,9 @@
 
 namespace umbsim::exchange {
 
+/// A standstill that is kept at either end of a run.
+constexpr double kRestOfRun_s = 1;
+
 /// A run to be cut from a log.
 struct Piece {
   std::string id;

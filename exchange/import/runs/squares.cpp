@@ -11,7 +11,6 @@
 namespace umbsim::exchange {
 namespace {
 
-constexpr double kRest_s = 1;
 constexpr double kCorner_rad = 0.35;  // 20 degrees that a corner may miss 90 by, as the wheels count it
 constexpr double kSide = 0.1;         // of the mean, that a leg may be longer or shorter
 constexpr double kLeastLeg_m = 0.05;
@@ -101,11 +100,11 @@ Cut squares_in(const RecordedRun& log, const RecordedRobot& robot) {
       continue;
     }
     const std::string direction = parts[i + 1].angle_rad > 0 ? "ccw" : "cw";
-    const double next = i + 8 < parts.size() ? parts[i + 8].from_s : end_of_log() + kRest_s;
+    const double next = i + 8 < parts.size() ? parts[i + 8].from_s : end_of_log() + kRestOfRun_s;
     const double end = parts[i + 7].to_s;
     Piece piece{
-        fmt::format("{}-{}", direction, ++count[direction]), direction, std::max(free_from, parts[i].from_s - kRest_s),
-        std::min(end + kRest_s, (end + next) / 2),           0,         0};
+        fmt::format("{}-{}", direction, ++count[direction]), direction, std::max(free_from, parts[i].from_s - kRestOfRun_s),
+        std::min(end + kRestOfRun_s, (end + next) / 2),           0,         0};
     piece.to_s = std::min(piece.to_s, end_of_log());
     free_from = piece.to_s;
     cut.pieces.push_back(piece);

@@ -12,8 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxAnswerBytes = 256 * 1024 * 1024;
-
 // The hash that stood when the case was diagnosed must be that of these answers.
 void check_process_seal(const Json& process, const std::string& hash, const fs::path& file) {
   const auto then = process.find("answers_sha256");

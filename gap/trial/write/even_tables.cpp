@@ -11,15 +11,20 @@ namespace {
 namespace fs = std::filesystem;
 
 // The sign, up to 9999 units, nine decimals.
-constexpr auto kEncoderRow = FMT_COMPILE("{:015.9f},{:012d},{:012d},{:015.9f},{:015.9f}\n");
+constexpr auto kCountsRow = FMT_COMPILE("{:015.9f},{:012d},{:012d}");
+constexpr auto kCommandsRow = FMT_COMPILE(",{:015.9f},{:015.9f}");
 constexpr auto kTruthRow = FMT_COMPILE("{:015.9f},{:015.9f},{:015.9f},{:015.9f}\n");
 
 std::string encoders_text(const RecordedRun& run) {
   fmt::memory_buffer text;
-  text.append(std::string_view("time_s,left_ticks,right_ticks,left_command_radps,right_command_radps\n"));
+  text.append(std::string_view("time_s,left_ticks,right_ticks"));
+  if (run.has_commands) text.append(std::string_view(",left_command_radps,right_command_radps"));
+  text.push_back('\n');
   for (const EncoderSample& e : run.encoders) {
-    fmt::format_to(fmt::appender(text), kEncoderRow, e.time_s, e.left_ticks, e.right_ticks, e.left_command_radps,
-                   e.right_command_radps);
+    fmt::format_to(fmt::appender(text), kCountsRow, e.time_s, e.left_ticks, e.right_ticks);
+    if (run.has_commands)
+      fmt::format_to(fmt::appender(text), kCommandsRow, e.left_command_radps, e.right_command_radps);
+    text.push_back('\n');
   }
   return fmt::to_string(text);
 }

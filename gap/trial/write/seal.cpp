@@ -10,7 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxAnswerBytes = 256 * 1024 * 1024;
 constexpr std::size_t kHashDigits = 64;
 
 }  // namespace

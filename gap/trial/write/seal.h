@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -7,6 +8,9 @@
 #include "gap/trial/write/trial_folder.h"
 
 namespace umbsim {
+
+/// More than any trial's answers take.
+constexpr std::size_t kMaxAnswerBytes = 256 * 1024 * 1024;
 
 /// The hash that seals the answers of a trial, from answers.sha256 (the format of sha256sum); nothing if there is none.
 std::optional<std::string> read_seal(const TrialFolder& folder);
