@@ -47,9 +47,11 @@ std::vector<Pose2> at_truth(const RecordedRun& run, const std::vector<Pose2>& tr
   return result;
 }
 
-// The pose at the start, from the first metre of the track: single poses are noisy, the first one may be wrong.
+// The pose at the start, from the first metre of the track: single poses are noisy, the first one may be wrong. What
+// comes after a turn says little: the believed wheelbase may be off.
 Pose2 start_of(const RecordedRun& run, const RecordedRobot& robot) {
   constexpr double kWay_m = 1;
+  constexpr double kTurn_rad = 0.3;
   const OdometryParameters believed{robot.wheel_radius_m, robot.wheel_radius_m, robot.wheelbase_m,
                                     robot.ticks_per_revolution};
   DeadReckoning reckoning(believed, {}, run.encoders.front().left_ticks, run.encoders.front().right_ticks);
@@ -60,7 +62,10 @@ Pose2 start_of(const RecordedRun& run, const RecordedRobot& robot) {
   }
   const std::vector<Pose2> at = at_truth(run, track);
   std::vector<double> turned;
-  for (std::size_t k = 0; k < at.size() && (k < 3 || std::hypot(at[k].x_m, at[k].y_m) < kWay_m); ++k) {
+  const auto near = [&](const Pose2& p) {
+    return std::hypot(p.x_m, p.y_m) < kWay_m && std::abs(p.theta_rad) < kTurn_rad;
+  };
+  for (std::size_t k = 0; k < at.size() && (k < 3 || near(at[k])); ++k) {
     turned.push_back(run.truth[k].X_WB.theta_rad - at[k].theta_rad);
   }
   std::nth_element(turned.begin(), turned.begin() + std::ptrdiff_t(turned.size() / 2), turned.end());

@@ -16,6 +16,16 @@ constexpr double kLittle = 0.05;       // of what a combination explains: more t
 constexpr double kOverconfidence = 2;  // evidence is divided by this before it becomes probability
 constexpr double kEqual = 1;           // log evidence
 
+// Whether both hold as many effects, and all but one are the same.
+bool differ_by_one_effect(const Fit& a, const Fit& b) {
+  const auto in_a = [&](const Hypothesis& h) {
+    return std::any_of(a.hypotheses.begin(), a.hypotheses.end(),
+                       [&](const Hypothesis& g) { return g.effect == h.effect; });
+  };
+  return a.hypotheses.size() > 1 && a.hypotheses.size() == b.hypotheses.size() &&
+         std::count_if(b.hypotheses.begin(), b.hypotheses.end(), in_a) + 1 == std::ptrdiff_t(b.hypotheses.size());
+}
+
 // Which numbers a fit leaves free.
 std::vector<std::string> free_numbers(const Fit& fit) {
   std::vector<std::string> names;
@@ -54,15 +64,23 @@ void give_probabilities(std::vector<Cause>& causes) {
 
 std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, const Thresholds& t) {
   const Fit none = fits.front();
-  std::stable_sort(fits.begin(), fits.end(),
-                   [](const Fit& a, const Fit& b) { return a.hypotheses.size() < b.hypotheses.size(); });
+  std::stable_sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) {
+    return std::pair(a.hypotheses.size(), -a.log_evidence) < std::pair(b.hypotheses.size(), -b.log_evidence);
+  });
   std::vector<Fit> kept;
   for (Fit& fit : fits) {
-    const bool worthwhile = std::all_of(kept.begin(), kept.end(), [&](const Fit& simpler) {
-      if (simpler.hypotheses.empty()) return true;
-      const double extra = double(fit.hypotheses.size()) - double(simpler.hypotheses.size());
-      return extra <= 0 || pays(model, simpler, fit, addition_needed(model, simpler, none, t), extra);
-    });
+    // Dimensions pay less. What is as good with one of them exchanged is not told apart.
+    const auto exchanged = [&](const Fit& other) {
+      return model.tracker_is_free() && other.log_evidence < fit.log_evidence + t.tie &&
+             differ_by_one_effect(other, fit);
+    };
+    const bool worthwhile =
+        std::any_of(kept.begin(), kept.end(), exchanged) ||
+        std::all_of(kept.begin(), kept.end(), [&](const Fit& simpler) {
+          if (simpler.hypotheses.empty()) return true;
+          const double extra = double(fit.hypotheses.size()) - double(simpler.hypotheses.size());
+          return extra <= 0 || pays(model, simpler, fit, addition_needed(model, simpler, none, t), extra);
+        });
     if (worthwhile) kept.push_back(std::move(fit));
   }
   return kept;

@@ -160,9 +160,13 @@ class Search {
         auto fit = tried(base, c, -1e300);
         if (fit && (!best || fit->log_evidence > best->log_evidence)) best = std::move(fit);
       }
-      if (!best || best->log_evidence < base.log_evidence + thresholds_.effect_cost) return;
+      if (!best || best->log_evidence < base.log_evidence + thresholds_.effect_cost) break;
       base = std::move(*best);
       if (base.hypotheses.size() > 1) fits_.push_back(base);
+    }
+    // Each may stand for another effect that moves the robot much as it does: counts lost by one wheel for its radius.
+    if (base.hypotheses.size() > 1) {
+      for (std::size_t out = 0; out < base.hypotheses.size(); ++out) exchange(base, out, fits_);
     }
   }
 
@@ -253,21 +257,33 @@ class Search {
   // in its place is tried.
   void swap_one(const Fit& whole, std::vector<Fit>& paying) {
     for (std::size_t out = 0; out + 1 < whole.hypotheses.size(); ++out) {
-      const Fit base = model_.without(whole, out);
-      const double worth = whole.log_evidence - base.log_evidence;
-      fits_.push_back(base);
-      std::size_t fitted = 0;
-      for (const Screen::Candidate& c : screen_.on_top_of(base)) {
-        if (c.hypothesis.effect == whole.hypotheses[out].effect) continue;
-        if (c.gain < kRivals * worth || fitted == kSwapsFitted) break;
-        if (c.reach.size() > 1) continue;
-        auto fit = tried(base, c, -1e300);
-        if (!fit) continue;
-        ++fitted;
-        if (!pays(model_, base, *fit, addition_needed(model_, base, none_, thresholds_))) continue;
-        fits_.push_back(*fit);
+      const std::size_t known = paying.size();
+      exchange(whole, out, paying);
+      fits_.insert(fits_.end(), paying.begin() + std::ptrdiff_t(known), paying.end());
+    }
+  }
+
+  // Takes effect `out` of `whole` out, and adds what pays in its place to `paying`. The screen is linear: what it sees
+  // of the effect taken out, if it sees it, is what rivals are held against.
+  void exchange(const Fit& whole, std::size_t out, std::vector<Fit>& paying) {
+    const Fit base = model_.without(whole, out);
+    fits_.push_back(base);
+    const std::string& effect = whole.hypotheses[out].effect;
+    const std::vector<Screen::Candidate> candidates = screen_.on_top_of(base);
+    double worth = whole.log_evidence - base.log_evidence;
+    const auto own = std::find_if(candidates.begin(), candidates.end(),
+                                  [&](const Screen::Candidate& c) { return c.hypothesis.effect == effect; });
+    if (own != candidates.end() && own->reach.size() <= 1) worth = std::min(worth, own->gain);
+    std::size_t fitted = 0;
+    for (const Screen::Candidate& c : candidates) {
+      if (c.hypothesis.effect == effect) continue;
+      if (c.gain < kRivals * worth || fitted == kSwapsFitted) break;
+      if (c.reach.size() > 1) continue;
+      auto fit = tried(base, c, -1e300);
+      if (!fit) continue;
+      ++fitted;
+      if (pays(model_, base, *fit, addition_needed(model_, base, none_, thresholds_)))
         paying.push_back(std::move(*fit));
-      }
     }
   }
 

@@ -318,6 +318,21 @@ TEST(Replay, RecordedDimensionsGoBeforeTheRobotFile) {
   EXPECT_NEAR(replay.nominal().wheelbase_m(), 0.98 * 0.340, 1e-12);
 }
 
+// A circle never leads far from its start. Seen there, a wheelbase that is 5 % wider than believed must not turn the
+// start: where the first heading is off it is corrected by what comes before the robot has turned.
+TEST(Replay, AWrongWheelbaseOnACircleDoesNotTurnTheStart) {
+  Scenario s = squares(1, 1);
+  s.course.shape = "circle";
+  s.course.radius_m = 0.4;
+  s.effects = {effect("wheelbase", {{"relative", 0.05}})};
+  Recording recording = run_experiment(s, 0).recording;
+  const auto start_rad = [&] { return Replay(scenario_of(recording, "."), recording).poses(0, {}).front().theta_rad; };
+  const double recorded_rad = recording.runs[0].truth[0].X_WB.theta_rad;
+  EXPECT_NEAR(start_rad(), recorded_rad, 1e-3);
+  recording.runs[0].truth[0].X_WB.theta_rad += 0.1;  // a first heading that alone is off is not believed
+  EXPECT_NEAR(start_rad(), recorded_rad, 0.01);
+}
+
 // Largest change of the heading's error within a second, mean over the runs.
 double mean_jump_rad(const Replay& replay, const std::vector<Effect>& effects) {
   constexpr double kSecond_s = 1;
