@@ -13,6 +13,7 @@ namespace umbsim::gap {
 namespace {
 
 constexpr double kLeastImpulse = 10;  // log evidence below which a place or a moment would not pay
+constexpr int kPastTheHill = 4;       // tries one after another that are each worse than the one before
 constexpr double kTryCost = 3;  // log of how many frictions are tried, and for the width of what is held where it shows
 
 // Effects on how the robot is driven and read are tried where counts or commands show them.
@@ -95,10 +96,15 @@ void Screen::try_frictions(const Fit& fit, Candidate& c) const {
   if (model_.slips_at() == 0) return;
   const auto density = density_on(model_, fit, c.hypothesis, model_.one_of_each());
   double highest = -1e300;
+  double last = -1e300;
+  int down = 0;
   for (const double less :
        {-0.02, -0.01, 0.0, 0.01, 0.02, 0.035, 0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.6, 0.9, 1.3, 1.8, 2.5}) {
     const double friction = model_.slips_at() * std::exp(-less);
     const double there = density(vector_of({friction}));
+    down = there < last ? down + 1 : 0;
+    last = there;
+    if (down == kPastTheHill) break;
     if (there <= highest) continue;
     highest = there;
     c.start[0] = friction;

@@ -170,13 +170,18 @@ class Search {
     }
   }
 
-  // Places and moments take many simulations: not where something else explains all that noise does not, and more than
-  // they do where they begin.
+  // Places and moments take many simulations: not alone where another effect explains far more than the matched filter
+  // sees of them (they are looked for beside it), nor where something else explains all that noise does not, and more
+  // than they do where they begin.
   bool idle(Screen::Candidate& c) const {
+    double most = 0;
     double rival = -1e300;
     for (const Fit& f : fits_) {
-      if (explains_all(model_, f, none_, thresholds_)) rival = std::max(rival, f.log_evidence - none_.log_evidence);
+      const double explained = f.log_evidence - none_.log_evidence;
+      most = std::max(most, explained);
+      if (explains_all(model_, f, none_, thresholds_)) rival = std::max(rival, explained);
     }
+    if (c.hypothesis.search_cost > 0 && c.gain < kLocalHint * kWorthASearch * most) return true;
     if (rival < c.gain) return false;
     if (c.gain < (c.hypothesis.search_cost > 0 ? kLocalHint : kHint) * rival) return true;
     return keep_best_starts(model_, none_, c) - none_.log_evidence < rival;
