@@ -23,7 +23,6 @@ namespace {
 
 constexpr double kWorthKnowing = 0.05;  // what effects explain, over the misfit that they leave
 constexpr std::size_t kSegments = 12;
-constexpr double kSurelyAnother = 30;  // log evidence; right fits of this engine's runs have up to 18
 constexpr double kAhead = 1;           // log evidence of what is named for what it foretells
 
 std::vector<std::string> names_of(const Fit& fit) {
@@ -246,7 +245,7 @@ Diagnosis diagnosed(const Model& model, const std::set<std::string>& excluded, c
                     const ProgressCallback& progress) {
   Diagnosis d;
   progress("signatures of the effects", 0);
-  const Screen screen(model, excluded);
+  Screen screen(model, excluded);
   Found found = search(model, screen, t, progress);
   const Fit none = found.fits.front();
   d.causes = ranked(worth_their_cost(model, std::move(found.fits), t), t);
@@ -277,7 +276,7 @@ Diagnosis diagnose(Model& model, const std::set<std::string>& excluded, const Th
                    const ProgressCallback& progress) {
   Diagnosis first = diagnosed(model, excluded, t, progress);
   const Cause& cause = first.causes.front();
-  if (model.another_engine(cause.fit) < kSurelyAnother) return first;
+  if (!model.surely_another_engines(cause.fit)) return first;
   Model another = model;
   another.take_for_another_engines();
   const ProgressCallback progress_again = [&](const std::string& stage, double share) {

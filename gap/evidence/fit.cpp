@@ -136,6 +136,12 @@ Fit Model::none() const {
   return fit;
 }
 
+Fit Model::held(Fit fit) const {
+  fit.nuisance =
+      evidence(grams(residuals(fit.predicted), {}), all_runs(), first_columns(nuisances()), nuisance_sds()).mean;
+  return fit;
+}
+
 double Model::density_at(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& p,
                          const std::vector<std::size_t>& some) const {
   Fit fit;

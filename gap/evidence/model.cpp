@@ -101,6 +101,11 @@ double Model::another_engine(const Fit& fit) const {
   return density(nuisance_sds().front()) - density(nuisance_sds().back());
 }
 
+bool Model::surely_another_engines(const Fit& fit) const {
+  constexpr double kSurely = 30;  // log evidence; right fits of this engine's runs have up to 18
+  return another_engine(fit) >= kSurely;
+}
+
 void Model::take_for_another_engines() {
   scatter_ = between_engines(scatter_);
   taken_for_another_engines_ = true;

@@ -99,6 +99,7 @@ class Model {
   bool engine_is_open() const { return nuisances_.shared_sds.size() > 1; }
   /// By how much log evidence a fit says that another engine made the runs; 0 where it is not open.
   double another_engine(const Fit& fit) const;
+  bool surely_another_engines(const Fit& fit) const;
   /// From now on the runs are another engine's: it differs from this one as measured between engines.
   void take_for_another_engines();
   bool taken_for_another_engines() const { return taken_for_another_engines_; }
@@ -160,6 +161,9 @@ class Model {
 
   /// No effect at all.
   Fit none() const;
+
+  /// Another model's fit as this model sees it: the same numbers, with the nuisances as they then are.
+  Fit held(Fit fit) const;
 
   /// Log likelihood that the runs scatter as little as they do, under effects that act by chance, against the noise as
   /// it was estimated: 0 or less. 0 where no runs were repeated.

@@ -5,16 +5,15 @@
 #include <optional>
 
 #include "core/error.h"
-#include "gap/evidence/impulsive_residuals.h"
 #include "gap/noise/noise_floor.h"
 #include "gap/search/addition.h"
+#include "gap/search/frontier.h"
 #include "gap/search/local_search.h"
 
 namespace umbsim::gap {
 namespace {
 
 constexpr double kContradicted = 25;  // five standard deviations, squared
-constexpr std::size_t kBases = 2;     // fits that further effects are tried on
 constexpr std::size_t kAdditionsFitted = 5;
 constexpr std::size_t kLocalSearches = 3;
 constexpr int kRounds = 7;
@@ -22,30 +21,18 @@ constexpr int kFewerRounds = 4;  // what is there already has been fitted
 constexpr std::size_t kSwapsFitted = 2;
 constexpr int kSwaps = 2;
 constexpr double kAnotherVariant = 3;   // log evidence by which a second hypothesis of one effect may promise less
-constexpr double kTwins = 6;            // squared standard deviations between two fits' tracks, all readings
 constexpr double kRivals = 0.8;         // share of an effect's gain that the screen must see in another in its place
-constexpr double kFarBehind = 20;       // log evidence
-constexpr double kHint = 0.02;          // of what explains all, below which nothing else is looked at,
-constexpr double kLocalHint = 0.25;     // and the same of places and moments, which take long
+constexpr double kLocalHint = 0.25;     // of what explains all, below which no place or moment is searched for
 constexpr double kWorthASearch = 0.1;   // of what the best single effect explains, the same of the best start
 constexpr double kPartOfNeeded = 0.25;  // of what a further effect must bring, the same of its best start
 constexpr double kDoubtful = 0.3;       // of what a further effect must bring
 constexpr double kScreening = 0.2;      // of the time of single effects
 constexpr double kAdding = 0.75;        // of a stage's time that further effects take; the rest are exchanges
-constexpr double kSuddenBeside = 0.05;  // of what is explained, that another engine leaves of impulses
-
-// Nothing is left but noise, as well as it is known, and nothing sudden, which a few readings show. `none`: the fit of
-// no effect.
-bool explains_all(const Model& model, const Fit& fit, const Fit& none, const Thresholds& t) {
-  if (fit.misfit >= (1 + t.noise_error) * model.rows()) return false;
-  const double explained = fit.log_evidence - none.log_evidence;
-  return strongest(find_impulses(model, fit)) < t.sudden + kSuddenBeside * explained;
-}
 
 // Forward from single effects, with a look back at what the first one should have been.
 class Search {
  public:
-  Search(const Model& model, const Screen& screen, const Thresholds& thresholds, const ProgressCallback& progress)
+  Search(const Model& model, Screen& screen, const Thresholds& thresholds, const ProgressCallback& progress)
       : model_(model),
         screen_(screen),
         thresholds_(thresholds),
@@ -59,7 +46,7 @@ class Search {
     if (model_.tracker_is_free()) fit_dimensions();
     std::vector<Fit> frontier(fits_.begin() + 1, fits_.end());
     for (int depth = 2; depth <= thresholds_.most_effects; ++depth) {
-      const std::vector<Fit> from = bases(std::move(frontier));
+      const std::vector<Fit> from = bases(model_, none_, std::move(frontier), thresholds_);
       if (from.empty() || from.front().log_evidence < none_.log_evidence + thresholds_.detect) break;
       begin(depth == 2 ? "fitting pairs of effects" : "fitting combinations of three");
       frontier.clear();
@@ -74,13 +61,17 @@ class Search {
   }
 
  private:
+  /// From which share of a stage on, and how much of it.
+  struct Part {
+    double from;
+    double size;
+  };
+
   void begin(const std::string& stage) {
     stage_ = stage;
     done(0);
   }
   void done(double share) const { progress_(stage_, share); }
-
-  static bool less_evidence(const Fit& a, const Fit& b) { return a.log_evidence < b.log_evidence; }
 
   std::optional<Fit> tried(const Fit& base, const Screen::Candidate& c, double least) {
     std::vector<Hypothesis> hypotheses = base.hypotheses;
@@ -136,11 +127,25 @@ class Search {
       const auto [of_effect, fresh] = p_values_.try_emplace(c.hypothesis.effect, c.p_value);
       if (!fresh) of_effect->second = std::min(of_effect->second, c.p_value);
     }
+    fit_promising(singles, false, {kScreening, (1 - kScreening) / 2});
+    // Another engine's contacts jolt the robot where nothing is.
+    if (model_.surely_another_engines(*std::max_element(fits_.begin(), fits_.end(), less_evidence))) {
+      Model another = model_;
+      another.take_for_another_engines();
+      screen_.look_through(std::move(another));
+      singles = screen_.on_top_of(none_);
+    }
+    fit_promising(singles, true, {(1 + kScreening) / 2, (1 - kScreening) / 2});
+  }
+
+  // `local`: places and moments, or all others.
+  void fit_promising(std::vector<Screen::Candidate>& singles, bool local, Part part) {
     const std::vector<std::size_t> promising = worth_a_fit(singles);
     for (std::size_t i = 0; i < promising.size(); ++i) {
-      done(kScreening + (1 - kScreening) * double(i) / double(promising.size()));
+      done(part.from + part.size * double(i) / double(promising.size()));
       Screen::Candidate& c = singles[promising[i]];
-      if (!c.starts.empty() && idle(c)) continue;
+      if ((c.hypothesis.search_cost > 0) != local) continue;
+      if (local && idle(c)) continue;
       const double most = std::max_element(fits_.begin(), fits_.end(), less_evidence)->log_evidence;
       const double least = none_.log_evidence + kWorthASearch * (most - none_.log_evidence);
       if (auto fit = tried(none_, c, least)) {
@@ -181,37 +186,11 @@ class Search {
       most = std::max(most, explained);
       if (explains_all(model_, f, none_, thresholds_)) rival = std::max(rival, explained);
     }
-    if (c.hypothesis.search_cost > 0 && c.gain < kLocalHint * kWorthASearch * most) return true;
+    if (c.gain < kLocalHint * kWorthASearch * most) return true;
     if (rival < c.gain) return false;
-    if (c.gain < (c.hypothesis.search_cost > 0 ? kLocalHint : kHint) * rival) return true;
+    if (c.gain < kLocalHint * rival) return true;
     return keep_best_starts(model_, none_, c) - none_.log_evidence < rival;
   }
-
-  // Where to go on: the best, and another that is nearly as good or explains something quite different. What moves the
-  // robot alike within noise, as a contact's width and a wheelbase do, is no other.
-  std::vector<Fit> bases(std::vector<Fit> frontier) const {
-    std::stable_sort(frontier.begin(), frontier.end(), [](const Fit& a, const Fit& b) { return less_evidence(b, a); });
-    std::vector<Fit> from;
-    for (Fit& f : frontier) {
-      const bool other = std::none_of(from.begin(), from.end(), [&](const Fit& g) {
-        return g.name() == f.name() ||
-               (g.hypotheses.size() == f.hypotheses.size() && seen_between(model_, g, f) < kTwins);
-      });
-      if (other && from.size() < kBases) from.push_back(std::move(f));
-    }
-    if (from.size() < 2) return from;
-    const bool second_is_idle =
-        explains_all(model_, from[0], none_, thresholds_) && from[1].log_evidence < from[0].log_evidence - kFarBehind;
-    // Two explanations of what happened at one place or moment are not two.
-    if (second_is_idle || (from[0].is_local() && from[1].is_local())) from.resize(1);
-    return from;
-  }
-
-  /// From which share of a stage on, and how much of it.
-  struct Part {
-    double from;
-    double size;
-  };
 
   // Fits of `base` and one effect more that pay.
   void add_to(const Fit& base, Part part, std::vector<Fit>& paying) {
@@ -293,7 +272,7 @@ class Search {
   }
 
   const Model& model_;
-  const Screen& screen_;
+  Screen& screen_;
   const Thresholds& thresholds_;
   const ProgressCallback& progress_;
   std::string stage_;
@@ -305,7 +284,7 @@ class Search {
 
 }  // namespace
 
-Found search(const Model& model, const Screen& screen, const Thresholds& thresholds, const ProgressCallback& progress) {
+Found search(const Model& model, Screen& screen, const Thresholds& thresholds, const ProgressCallback& progress) {
   return Search(model, screen, thresholds, progress).run();
 }
 
