@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kWorthKnowing = 0.05;  // what effects explain, over the misfit that they leave
 constexpr std::size_t kSegments = 12;
-constexpr double kAhead = 1;           // log evidence of what is named for what it foretells
+constexpr double kAhead = 1;  // log evidence of what is named for what it foretells
 
 std::vector<std::string> names_of(const Fit& fit) {
   std::vector<std::string> names;
@@ -122,10 +122,9 @@ bool twin_lacks_mends_alone(const Model& model, const Diagnosis& d) {
     return std::any_of(d.twin.hypotheses.begin(), d.twin.hypotheses.end(),
                        [&](const Hypothesis& h) { return h.effect == effect; });
   };
-  return std::all_of(d.explanation.hypotheses.begin(), d.explanation.hypotheses.end(),
-                     [&](const Hypothesis& h) {
-                       return in_twin(h.effect) || !is_kinematic(h.effect) || mends_contacts(model, h.effect);
-                     });
+  return std::all_of(d.explanation.hypotheses.begin(), d.explanation.hypotheses.end(), [&](const Hypothesis& h) {
+    return in_twin(h.effect) || !is_kinematic(h.effect) || mends_contacts(model, h.effect);
+  });
 }
 
 // On another engine's recordings a contact's effect, or a dimension, beside others that takes too little away on

@@ -12,7 +12,7 @@ namespace umbsim {
 namespace {
 
 constexpr double kParallel_rad = 0.1;
-// Two wheels of one caster have one radius, within this share.
+// Two wheels of one caster have one radius and one axle, within this share of the radius.
 constexpr double kSameAxle = 0.05;
 // A caster wheel is at most this many drive wheel radii high.
 constexpr double kLargest_radii = 1.5;

@@ -70,7 +70,8 @@ std::vector<ParameterEstimate> parameter_estimates(const Fit& fit, double overdi
            info.parameters[k].name,
            info.parameters[k].unit,
            best_k,
-           {std::max(std::min(best_k, possible.min), best_k - std::hypot(best_k - values[kParameterDraws / 40], replay)),
+           {std::max(std::min(best_k, possible.min),
+                     best_k - std::hypot(best_k - values[kParameterDraws / 40], replay)),
             std::min(std::max(best_k, possible.max),
                      best_k + std::hypot(values[kParameterDraws - 1 - kParameterDraws / 40] - best_k, replay))}});
     }

@@ -145,9 +145,10 @@ class Search {
       done(part.from + part.size * double(i) / double(promising.size()));
       Screen::Candidate& c = singles[promising[i]];
       if ((c.hypothesis.search_cost > 0) != local) continue;
-      if (local && idle(c)) continue;
-      const double most = std::max_element(fits_.begin(), fits_.end(), less_evidence)->log_evidence;
-      const double least = none_.log_evidence + kWorthASearch * (most - none_.log_evidence);
+      const double most =
+          std::max_element(fits_.begin(), fits_.end(), less_evidence)->log_evidence - none_.log_evidence;
+      if (local && idle(c, most)) continue;
+      const double least = none_.log_evidence + kWorthASearch * most;
       if (auto fit = tried(none_, c, least)) {
         fits_.push_back(std::move(*fit));
       }
@@ -177,16 +178,13 @@ class Search {
 
   // Places and moments take many simulations: not alone where another effect explains far more than the matched filter
   // sees of them (they are looked for beside it), nor where something else explains all that noise does not, and more
-  // than they do where they begin.
-  bool idle(Screen::Candidate& c) const {
-    double most = 0;
+  // than they do where they begin. `most`: what the best of all fits explains.
+  bool idle(Screen::Candidate& c, double most) const {
+    if (c.gain < kLocalHint * kWorthASearch * most) return true;
     double rival = -1e300;
     for (const Fit& f : fits_) {
-      const double explained = f.log_evidence - none_.log_evidence;
-      most = std::max(most, explained);
-      if (explains_all(model_, f, none_, thresholds_)) rival = std::max(rival, explained);
+      if (explains_all(model_, f, none_, thresholds_)) rival = std::max(rival, f.log_evidence - none_.log_evidence);
     }
-    if (c.gain < kLocalHint * kWorthASearch * most) return true;
     if (rival < c.gain) return false;
     if (c.gain < kLocalHint * rival) return true;
     return keep_best_starts(model_, none_, c) - none_.log_evidence < rival;

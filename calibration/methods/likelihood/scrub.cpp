@@ -10,7 +10,7 @@ namespace umbsim::calibration {
 namespace {
 
 constexpr double kLeastAbove = 1e-200;
-constexpr double kLeastTold = 1e-3;   // of the belief's variance, by which the data narrow it: less is nothing
+constexpr double kLeastTold = 1e-3;  // of the belief's variance, by which the data narrow it: less is nothing
 
 // A Gaussian cut at zero.
 struct Cut {

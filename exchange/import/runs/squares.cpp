@@ -102,9 +102,12 @@ Cut squares_in(const RecordedRun& log, const RecordedRobot& robot) {
     const std::string direction = parts[i + 1].angle_rad > 0 ? "ccw" : "cw";
     const double next = i + 8 < parts.size() ? parts[i + 8].from_s : end_of_log() + kRestOfRun_s;
     const double end = parts[i + 7].to_s;
-    Piece piece{
-        fmt::format("{}-{}", direction, ++count[direction]), direction, std::max(free_from, parts[i].from_s - kRestOfRun_s),
-        std::min(end + kRestOfRun_s, (end + next) / 2),           0,         0};
+    Piece piece{fmt::format("{}-{}", direction, ++count[direction]),
+                direction,
+                std::max(free_from, parts[i].from_s - kRestOfRun_s),
+                std::min(end + kRestOfRun_s, (end + next) / 2),
+                0,
+                0};
     piece.to_s = std::min(piece.to_s, end_of_log());
     free_from = piece.to_s;
     cut.pieces.push_back(piece);
