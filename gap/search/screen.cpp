@@ -109,14 +109,14 @@ void Screen::try_frictions(const Fit& fit, Candidate& c) const {
   for (const double less :
        {-0.02, -0.01, 0.0, 0.01, 0.02, 0.035, 0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.6, 0.9, 1.3, 1.8, 2.5}) {
     const double friction = model_.slips_at() * std::exp(-less);
-    const double there = density(vector_of({friction}));
+    const double there = density(Eigen::VectorXd::Constant(1, friction));
     down = there < last ? down + 1 : 0;
     last = there;
     if (down == kPastTheHill) break;
     if (there <= highest) continue;
     highest = there;
     c.start[0] = friction;
-    c.reach = vector_of({0.01 * friction});
+    c.reach = Eigen::VectorXd::Constant(1, 0.01 * friction);
   }
   c.gain = density_on(model_, fit, c.hypothesis)(c.start) - model_.density_at(fit.hypotheses, fit.p) - kTryCost;
 }

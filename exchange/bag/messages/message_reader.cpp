@@ -11,23 +11,23 @@
 namespace umbsim::exchange {
 namespace {
 
-enum class Kind { structure, boolean, i8, u8, i16, u16, i32, u32, i64, u64, f32, f64, text, wide_text };
-
-Kind kind_of(const std::string& type) {
-  static const std::map<std::string, Kind> kinds = {
-      {"bool", Kind::boolean}, {"byte", Kind::u8},     {"char", Kind::u8},          {"int8", Kind::i8},
-      {"uint8", Kind::u8},     {"int16", Kind::i16},   {"uint16", Kind::u16},       {"int32", Kind::i32},
-      {"uint32", Kind::u32},   {"int64", Kind::i64},   {"uint64", Kind::u64},       {"float32", Kind::f32},
-      {"float64", Kind::f64},  {"string", Kind::text}, {"wstring", Kind::wide_text}};
-  const auto found = kinds.find(type);
-  return found == kinds.end() ? Kind::structure : found->second;
-}
-
 constexpr int kDeepest = 30;  // structs in structs; no message has so many
 
 }  // namespace
 
 struct MessageReader::Node {
+  enum class Kind { structure, boolean, i8, u8, i16, u16, i32, u32, i64, u64, f32, f64, text, wide_text };
+
+  static Kind kind_of(const std::string& type) {
+    static const std::map<std::string, Kind> kinds = {
+        {"bool", Kind::boolean}, {"byte", Kind::u8},     {"char", Kind::u8},          {"int8", Kind::i8},
+        {"uint8", Kind::u8},     {"int16", Kind::i16},   {"uint16", Kind::u16},       {"int32", Kind::i32},
+        {"uint32", Kind::u32},   {"int64", Kind::i64},   {"uint64", Kind::u64},       {"float32", Kind::f32},
+        {"float64", Kind::f64},  {"string", Kind::text}, {"wstring", Kind::wide_text}};
+    const auto found = kinds.find(type);
+    return found == kinds.end() ? Kind::structure : found->second;
+  }
+
   Kind kind = Kind::structure;
   bool is_array = false;
   std::size_t count = 0;
@@ -101,8 +101,8 @@ template <class Node>
 Node build(const std::string& type, const Definitions& definitions, const std::string& path,
            const std::vector<std::string>& paths, std::vector<bool>& met, int depth) {
   Node node;
-  node.kind = kind_of(type);
-  if (node.kind != Kind::structure) {
+  node.kind = Node::kind_of(type);
+  if (node.kind != Node::Kind::structure) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
       if (paths[i] != path) continue;
       node.slot = int(i);
