@@ -22,7 +22,7 @@ double lack_of_fit(const Model& model, const Fit& fit, const Thresholds& t) {
 double counts_left(const Model& model, const Fit& fit) {
   const auto beyond = [](double misfit, double n) { return std::max(0.0, misfit - n - 3 * std::sqrt(2 * n)) / 2; };
   return std::max(
-      beyond(model.counts_misfit(fit.predicted), model.count_rows()),
+      beyond(model.counts_misfit(fit), model.count_rows()),
       beyond(model.command_features_misfit(fit.predicted), double(std::tuple_size<CommandFeatures>::value)));
 }
 

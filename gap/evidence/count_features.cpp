@@ -6,11 +6,12 @@
 
 namespace umbsim::gap {
 
-// With what counts against commands are measured; where they are judged alone, with what engines differ by.
+// With what counts against commands are measured; where they are judged alone, with what engines surely differ by.
 CountsSd Model::counts_sd(std::size_t run, bool alone) const {
   const CommandResponse& measured = measured_.counted[run];
   if (!measured.known) return CountsSd::Zero();
-  const double gain = std::hypot(scatter_.gain, measured.gain_sd, alone ? scatter_.engine_gain : 0);
+  const double gain =
+      std::hypot(scatter_.gain, measured.gain_sd, alone && taken_for_another_engines_ ? scatter_.engine_gain : 0);
   return {gain, gain, alone ? scatter_.counts_lag_s : scatter_.run_lag_s};
 }
 
@@ -34,6 +35,21 @@ double Model::counts_misfit(const Predicted& predicted) const {
   double sum = 0;
   for (std::size_t r = 0; r < recording().runs.size(); ++r)
     sum += feature_rows(r, measured_, predicted, true).squaredNorm();
+  return sum;
+}
+
+double Model::counts_misfit(const Fit& fit) const {
+  double sum = 0;
+  Eigen::VectorXd seen = Eigen::VectorXd::Zero(nuisances());  // of each nuisance in counts
+  for (std::size_t r = 0; r < recording().runs.size(); ++r) {
+    const Eigen::MatrixXd in_counts = nuisances_.shared[r].bottomRows(kFeatureRows);
+    sum += (feature_rows(r, measured_, fit.predicted, false) - in_counts * fit.nuisance).squaredNorm();
+    seen += in_counts.colwise().squaredNorm().transpose();
+  }
+  const Eigen::VectorXd& sd = nuisance_sds()[fit.prior];
+  for (Eigen::Index i = 0; i < seen.size(); ++i) {
+    if (seen[i] > 0 && sd[i] > 0) sum += std::pow(fit.nuisance[i] / sd[i], 2);
+  }
   return sum;
 }
 

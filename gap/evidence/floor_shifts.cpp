@@ -28,7 +28,11 @@ void detrend(std::vector<Shifted>& leg, const std::vector<double>& way_m, std::v
     const double det = n * ss - s * s;
     if (n < 8 || det <= 0) continue;
     into.push_back(leg[k]);
-    into.back().shift_m -= (ss * f - s * sf) / det;
+    Shifted& shifted = into.back();
+    shifted.shift_m -= (ss * f - s * sf) / det;
+    // Two passes matched by where a tracker saw them would be matched by its noise: alike where both strayed alike.
+    shifted.X_WB.x_m -= shifted.shift_m.x();
+    shifted.X_WB.y_m -= shifted.shift_m.y();
   }
 }
 

@@ -95,10 +95,12 @@ Model::Model(const Campaign& campaign, Simulator simulator, const Scatter& scatt
 
 double Model::another_engine(const Fit& fit) const {
   if (!engine_is_open()) return 0;
-  const auto density = [&](const Eigen::VectorXd& sd) {
-    return evidence(fit.grams, all_runs(), first_columns(nuisances()), sd).log_density;
+  const auto density = [&](auto from, auto to) {
+    return evidence(fit.grams, all_runs(), first_columns(nuisances()), std::vector<Eigen::VectorXd>(from, to))
+        .log_density;
   };
-  return density(nuisance_sds().front()) - density(nuisance_sds().back());
+  const auto begin = nuisance_sds().begin(), same = begin + std::ptrdiff_t(nuisances_.of_another);
+  return density(begin, same) - density(same, nuisance_sds().end());
 }
 
 bool Model::surely_another_engines(const Fit& fit) const {
@@ -110,7 +112,7 @@ void Model::take_for_another_engines() {
   scatter_ = between_engines(scatter_);
   taken_for_another_engines_ = true;
   observe();
-  nuisances_.shared_sds.resize(1);
+  nuisances_.shared_sds.resize(nuisances_.of_another);
 }
 
 // The tracks as noise leaves them to be seen, and what is fitted always.

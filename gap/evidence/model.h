@@ -94,9 +94,9 @@ class Model {
   std::string condition(std::size_t run) const;
   bool tracker_is_free() const;  ///< of any recording
   /// Whether a fit says that this engine made the recordings: their runs stray from it by less than engines differ.
-  bool same_engine(const Fit& fit) const { return fit.prior > 0; }
+  bool same_engine(const Fit& fit) const { return fit.prior >= nuisances_.of_another; }
   /// Whether it is open that this engine made them: a real robot's runs are not.
-  bool engine_is_open() const { return nuisances_.shared_sds.size() > 1; }
+  bool engine_is_open() const { return nuisances_.shared_sds.size() > nuisances_.of_another; }
   /// By how much log evidence a fit says that another engine made the runs; 0 where it is not open.
   double another_engine(const Fit& fit) const;
   bool surely_another_engines(const Fit& fit) const;
@@ -148,6 +148,8 @@ class Model {
 
   /// Sum of squares, in standard deviations, by which a prediction misses counts against commands.
   double counts_misfit(const Predicted& predicted) const;
+  /// The same of a fit beside the nuisances, with their cost: a lag that all runs share is one surprise, not one a run.
+  double counts_misfit(const Fit& fit) const;
   double count_rows() const;
   /// The part of it that is how the robot was driven and read (recording/command_features.h).
   double command_features_misfit(const Predicted& predicted) const;

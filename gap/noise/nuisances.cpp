@@ -31,6 +31,9 @@ struct Layout {
   Eigen::Index group(std::size_t g) const { return kCommon + kPerGroup * Eigen::Index(g); }
   Eigen::Index tracker(std::size_t t) const { return group(groups.rolling.size()) + kPerTracker * Eigen::Index(t); }
   Eigen::Index size() const { return tracker(trackers.size()); }
+  bool any_free() const {
+    return std::any_of(trackers.begin(), trackers.end(), [](const Recording* r) { return tracker_is_free(*r); });
+  }
 
   RunGroups groups;
   std::vector<const Recording*> trackers;
@@ -39,10 +42,12 @@ struct Layout {
 
 Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
   Eigen::VectorXd sd(layout.size());
-  sd.head(kCommon) << s.creep_across, 1, s.engine_gain, s.engine_gain, s.lag_s;
+  const double gain = layout.any_free() ? s.real_gain : s.engine_gain;
+  sd.head(kCommon) << s.creep_across, 1, gain, gain, s.lag_s;
   for (std::size_t t = 0; t < layout.trackers.size(); ++t) {
-    sd.segment(layout.tracker(t), kPerTracker) << s.marker_m, s.marker_m, s.clock_s,
-        tracker_is_free(*layout.trackers[t]) ? s.frame_rad : 0;
+    // A truth without noise is a simulator's.
+    const double frame = layout.trackers[t]->truth_heading_sd_rad > 0 ? s.frame_rad : 0;
+    sd.segment(layout.tracker(t), kPerTracker) << s.marker_m, s.marker_m, s.clock_s, frame;
   }
   const RunGroups& groups = layout.groups;
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
@@ -57,6 +62,18 @@ Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
 // The marker, the clock and the frame stay what they are, whoever made the recording.
 Eigen::VectorXd of_same_engine(Eigen::VectorXd sd, const Layout& layout, const Scatter& s) {
   sd.head(layout.tracker(0)) *= s.same_engine;
+  return sd;
+}
+
+// Neither free nor without noise: it may be a tracker that was mounted by hand, or a simulator's truth with noise on
+// it.
+bool may_be_exact(const Recording* r) { return r->truth_heading_sd_rad > 0 && !tracker_is_free(*r); }
+
+Eigen::VectorXd with_exact_trackers(Eigen::VectorXd sd, const Layout& layout, const Scatter& s) {
+  for (std::size_t t = 0; t < layout.trackers.size(); ++t) {
+    if (!may_be_exact(layout.trackers[t])) continue;
+    sd.segment(layout.tracker(t), kPerTracker) << s.exact_marker_m, s.exact_marker_m, s.clock_s, 0;
+  }
   return sd;
 }
 
@@ -139,14 +156,16 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
                          const Drive& drive, double floor_m, int more_rows, const std::vector<CountsSd>& counts) {
   const Layout layout(nominal);
   const RunGroups& groups = layout.groups;
-  const bool any_free = std::any_of(layout.trackers.begin(), layout.trackers.end(),
-                                    [](const Recording* r) { return tracker_is_free(*r); });
   Nuisances n;
   n.shared_sds = {shared_sd(layout, scatter)};
+  if (std::any_of(layout.trackers.begin(), layout.trackers.end(), may_be_exact))
+    n.shared_sds.push_back(with_exact_trackers(n.shared_sds.front(), layout, scatter));
+  n.of_another = n.shared_sds.size();
   n.engine_sd = Eigen::VectorXd::Zero(layout.size());
   n.engine_sd.head(layout.tracker(0)) = n.shared_sds.front().head(layout.tracker(0));
   n.unexplained_sd = Eigen::VectorXd::Zero(layout.size());
-  if (!any_free) n.shared_sds.push_back(of_same_engine(n.shared_sds.front(), layout, scatter));
+  // A simulator knows the truth exactly.
+  if (!layout.any_free()) n.shared_sds.push_back(of_same_engine(n.shared_sds.back(), layout, scatter));
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
     const Eigen::Index first = layout.group(g);
     // Between turns in place only the moments at which a turn begins and ends roll in an arc: engines differ there.

@@ -20,20 +20,22 @@ struct Scatter {
   double turns_between = 3e-3;  ///< of all turns, between recordings of one robot: kinds of driving that tyres scrub in
   double heading_rad_pm = 5e-5;  ///< along legs
   double lateral = 3e-5;         ///< along legs
-  double lead_s = 0;           ///< of the pose before the counts, as speed goes, along and turning: contacts that creep
-  double marker_m = 0.003;     ///< of the tracked point from the axle's middle
-  double frame_rad = 0.02;     ///< of the tracker's heading from the drive axis, where it is free
-  double clock_s = 0.05;       ///< between encoders and tracker
-  double run_clock_s = 0.02;   ///< the same from run to run, where the tracker is free
-  double clock_rate = 1e-3;    ///< of one clock against the other, from run to run, where the tracker is free
-  double creep_across = 0.03;  ///< sideways creep of the tyres
-  double slip_share = 0.2;     ///< displacement by slip under jolts, in noise floors
-  double gain = 4e-4;          ///< of counts over commands
-  double engine_gain = 0;      ///< of the same, alike in all runs: servos droop under their load
-  double lag_s = 0.006;        ///< of counts behind commands, alike in all runs
-  double run_lag_s = 0.003;    ///< the same from run to run
-  double counts_lag_s = 0.010;  ///< the same of any run, where counts alone are judged
-  double same_engine = 0.1;     ///< share of what engines differ by that is left where both are the same
+  double lead_s = 0;        ///< of the pose before the counts, as speed goes, along and turning: contacts that creep
+  double marker_m = 0.003;  ///< of the tracked point from the axle's middle, where it was mounted by hand
+  double frame_rad = 0.02;  ///< of the tracker's heading from the drive axis, the same
+  double exact_marker_m = 5e-4;  ///< of the point where it is the axle's middle by definition: a simulation's truth
+  double clock_s = 0.05;         ///< between encoders and tracker
+  double run_clock_s = 0.02;     ///< the same from run to run, where the tracker is free
+  double clock_rate = 1e-3;      ///< of one clock against the other, from run to run, where the tracker is free
+  double creep_across = 0.03;    ///< sideways creep of the tyres
+  double slip_share = 0.2;       ///< displacement by slip under jolts, in noise floors
+  double gain = 4e-4;            ///< of counts over commands
+  double engine_gain = 0;        ///< of the same, alike in all runs: servos droop under their load
+  double real_gain = 1e-3;       ///< the same where the tracker is free: a real robot's servos do
+  double lag_s = 0.006;          ///< of counts behind commands, alike in all runs
+  double run_lag_s = 0.003;      ///< the same from run to run
+  double counts_lag_s = 0.010;   ///< the same of any run, where counts alone are judged
+  double same_engine = 0.1;      ///< share of what engines differ by that is left where both are the same
 };
 
 /// The same where another engine is known to have made the runs, as measured between four of them (docs/worlds.md).
@@ -41,8 +43,12 @@ Scatter between_engines(Scatter scatter);
 
 /// Columns that are fitted always and credited to nobody. Per run, whitened; outer index: run.
 struct Nuisances {
-  /// If another engine, or a robot, made the recording; and if this one did, which runs show by how little they stray.
+  /// First `of_another`, if another engine, or a robot, made the recording: with a tracker that was mounted by hand
+  /// and, where its header does not speak against it, with an exact one. A heading that is off the drive axis looks
+  /// like toe, and a point that is off the axle tells the two apart. Then, if this engine made it, which runs show by
+  /// how little they stray.
   std::vector<Eigen::VectorXd> shared_sds;
+  std::size_t of_another = 0;
   Eigen::VectorXd unexplained_sd;       ///< of the same numbers, if errors of no particular cause stood behind them
   std::vector<Eigen::MatrixXd> shared;  ///< one number for all runs that it acts in
   std::vector<Eigen::MatrixXd> tracks;  ///< the same as track errors, not whitened

@@ -1,5 +1,6 @@
 #include "gap/replay/remembered.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -9,7 +10,8 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr std::size_t kMostKept = 1500;  // runs: some 100 MB of tracks and counts
+constexpr std::size_t kMostKept = 1500;         // runs
+constexpr std::size_t kPosesKept = 10'000'000;  // 240 MB: a search for a place is there for the next one
 
 constexpr double kBeside_m = 0.5;  // from the tracked point to whatever of the robot meets the floor, and a little more
 
@@ -34,9 +36,9 @@ bool felt(const RecordedRun& run, double wheelbase_m, bool tracked, const Effect
 }
 
 template <class Call, class Felt>
-auto with_memory(const Call& call, const Felt& felt_in) {
+auto with_memory(const Call& call, const Felt& felt_in, std::size_t most_kept) {
   using Result = typename Call::result_type;
-  const auto memory = std::make_shared<Recent<Result>>(kMostKept);
+  const auto memory = std::make_shared<Recent<Result>>(most_kept);
   return [call, felt_in, memory](std::size_t run, const std::vector<Effect>& all, auto... roughness) {
     std::vector<Effect> effects;
     for (const Effect& e : all) {
@@ -54,8 +56,11 @@ Simulator remembered(Simulator simulator, const Recording& recording) {
   const auto felt_in = [&recording](std::size_t run, const Effect& effect) {
     return felt(recording.runs[run], recording.robot.wheelbase_m, recording.truth_kind == "track", effect);
   };
-  simulator.ticks = with_memory(simulator.ticks, felt_in);
-  if (simulator.commands) simulator.commands = with_memory(simulator.commands, felt_in);
+  std::size_t poses = 1;
+  for (const RecordedRun& run : recording.runs) poses += run.truth.size();
+  const std::size_t tracks = std::max(kMostKept, kPosesKept * recording.runs.size() / poses);
+  simulator.ticks = with_memory(simulator.ticks, felt_in, tracks);
+  if (simulator.commands) simulator.commands = with_memory(simulator.commands, felt_in, kMostKept);
   return simulator;
 }
 

@@ -12,6 +12,7 @@ namespace {
 // Variance by which an effect's signature may be off, another engine's robot for one: of the whole signature, for
 // nuisances like a clock's offset that take up most of it do not take up its error.
 constexpr double kSignatureError = 3e-4;
+constexpr double kContradicted = 25;   // five standard deviations, squared
 constexpr double kMost = 0.5;          // of the misfit
 constexpr double kMostOfReading = 16;  // squared standard deviations
 constexpr double kPlain = 2.5;         // times what counts must show
@@ -89,6 +90,11 @@ double excess(const Model& model, const Fit& fit) {
 }
 
 }  // namespace
+
+bool contradicted(const Model& model, const Fit& base, const Fit& fit) {
+  return fit.log_chance < -kContradicted / 2 ||
+         model.counts_misfit(fit.predicted) > model.counts_misfit(base.predicted) + kContradicted;
+}
 
 double lookalike_share(const Fit& base, const Fit& fit) {
   double share = 0;

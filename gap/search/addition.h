@@ -20,6 +20,9 @@ struct Needed {
 /// what an error of an effect's model in `base` looks like, such as slip beside coarse counts.
 double lookalike_share(const Fit& base, const Fit& fit);
 
+/// Whether counts speak against `fit`, or the runs scatter less than under it: it may not explain the tracks then.
+bool contradicted(const Model& model, const Fit& base, const Fit& fit);
+
 /// Sum of squares of what a fit changes in the whitened tracks.
 double seen_between(const Model& model, const Fit& base, const Fit& fit);
 

@@ -42,6 +42,33 @@ std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, con
 
 namespace {
 
+// The same where the hypothesis is driven alone, and what it changes is put on top of `base`: what happens at a place
+// hardly hangs on what else is wrong with the robot, and the place was driven without it, too.
+std::function<double(const Eigen::VectorXd&)> density_beside(const Model& model, const Fit& base,
+                                                             const Hypothesis& hypothesis,
+                                                             const std::vector<std::size_t>& some = {}) {
+  if (base.hypotheses.empty()) return density_on(model, base, hypothesis, some);
+  const std::vector<std::size_t> runs = some.empty() ? model.all_runs() : some;
+  std::vector<Eigen::VectorXd> before = model.residuals(base.predicted);
+  const std::vector<Eigen::VectorXd> alone = model.residuals(model.none().predicted);
+  for (std::size_t r = 0; r < before.size(); ++r) before[r] -= alone[r];
+  return [&model, hypothesis, runs, before, others = base.effects()](const Eigen::VectorXd& numbers) {
+    std::vector<Effect> effects = effects_of(hypothesis, numbers);
+    try {
+      std::vector<Eigen::VectorXd> residual = model.residuals(model.predict({effects}, runs).front());
+      for (const std::size_t r : runs) residual[r] += before[r];
+      effects.insert(effects.end(), others.begin(), others.end());
+      return evidence(model.grams(residual, {}), runs, first_columns(model.nuisances()), model.nuisance_sds())
+                 .log_density +
+             model.log_chance(effects);
+    } catch (const RunError&) {
+      return -1e300;
+    } catch (const InputError&) {
+      return -1e300;
+    }
+  };
+}
+
 // The top of the hill from one start; `closely`: a start that is near it.
 Eigen::VectorXd local_search(const std::function<double(const Eigen::VectorXd&)>& density, const Screen::Candidate& c,
                              const Eigen::VectorXd& start, bool closely) {
@@ -88,8 +115,8 @@ std::vector<std::size_t> begun_on(const Screen::Candidate& c) {
 double keep_best_starts(const Model& model, const Fit& base, Screen::Candidate& c) {
   const std::size_t local_searches = std::size_t(c.local_searches);
   if (!c.shown_by.empty())
-    keep_best(density_on(model, base, c.hypothesis, begun_on(c)), kKeptOfFew * local_searches, c);
-  return keep_best(density_on(model, base, c.hypothesis), local_searches, c);
+    keep_best(density_beside(model, base, c.hypothesis, begun_on(c)), kKeptOfFew * local_searches, c);
+  return keep_best(density_beside(model, base, c.hypothesis), local_searches, c);
 }
 
 std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& base, Screen::Candidate c, double least) {
@@ -107,6 +134,7 @@ std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& bas
     highest = there;
     best = top;
   }
+  if (highest < least) return std::nullopt;
   // Whether a wheel comes across a place is a matter of millimetres: the few runs do not speak for all.
   return c.shown_by.empty() ? best : local_search(density, c, best, true);
 }

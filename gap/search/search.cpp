@@ -13,8 +13,8 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr double kContradicted = 25;  // five standard deviations, squared
 constexpr std::size_t kAdditionsFitted = 5;
+constexpr std::size_t kFewAdditions = 2;
 constexpr std::size_t kLocalSearches = 3;
 constexpr int kRounds = 7;
 constexpr int kFewerRounds = 4;  // what is there already has been fitted
@@ -49,9 +49,10 @@ class Search {
       const std::vector<Fit> from = bases(model_, none_, std::move(frontier), thresholds_);
       if (from.empty() || from.front().log_evidence < none_.log_evidence + thresholds_.detect) break;
       begin(depth == 2 ? "fitting pairs of effects" : "fitting combinations of three");
-      frontier.clear();
+      if (follow_best(from.front(), frontier)) continue;
       for (std::size_t i = 0; i < from.size(); ++i) {
-        add_to(from[i], {kAdding * double(i) / double(from.size()), kAdding / double(from.size())}, frontier);
+        add_to(from[i], kAdditionsFitted, {kAdding * double(i) / double(from.size()), kAdding / double(from.size())},
+               frontier);
       }
       if (frontier.empty()) break;
       done(kAdding);
@@ -90,7 +91,7 @@ class Search {
       }
       fit.size = displacement_m(fit.predicted.tracks, base.predicted.tracks) / model_.noise_floor_m();
       fit.seen = std::sqrt(seen_between(model_, base, fit) / model_.rows());
-      if (contradicted(base, fit)) return std::nullopt;
+      if (contradicted(model_, base, fit)) return std::nullopt;
       if (large_enough(base, fit)) return fit;
       keep_doubtful(base, addition_needed(model_, base, none_, thresholds_), std::move(fit));
     } catch (const RunError&) {
@@ -103,13 +104,6 @@ class Search {
 
   void keep_doubtful(const Fit& base, const Needed& needed, Fit fit) {
     if (base.hypotheses.empty() || pays(model_, base, fit, needed, kDoubtful)) doubtful_.push_back(std::move(fit));
-  }
-
-  // What the counts speak against may not explain the tracks, nor what would have made the runs scatter more than they
-  // do.
-  bool contradicted(const Fit& base, const Fit& fit) const {
-    return fit.log_chance < -kContradicted / 2 ||
-           model_.counts_misfit(fit.predicted) > model_.counts_misfit(base.predicted) + kContradicted;
   }
 
   bool large_enough(const Fit& base, const Fit& fit) const {
@@ -148,7 +142,8 @@ class Search {
       const double most =
           std::max_element(fits_.begin(), fits_.end(), less_evidence)->log_evidence - none_.log_evidence;
       if (local && idle(c, most)) continue;
-      const double least = none_.log_evidence + kWorthASearch * most;
+      const double least =
+          none_.log_evidence + std::max(kWorthASearch * most, c.hypothesis.search_cost + thresholds_.effect_cost);
       if (auto fit = tried(none_, c, least)) {
         fits_.push_back(std::move(*fit));
       }
@@ -190,8 +185,23 @@ class Search {
     return keep_best_starts(model_, none_, c) - none_.log_evidence < rival;
   }
 
-  // Fits of `base` and one effect more that pay.
-  void add_to(const Fit& base, Part part, std::vector<Fit>& paying) {
+  // Runs that are surely another engine's, whatever is added, are searched again as such. Here the best fit and its
+  // likeliest further effects are enough to tell that. False, and nothing in `paying`, where they are not.
+  bool follow_best(const Fit& best, std::vector<Fit>& paying) {
+    paying.clear();
+    if (!model_.surely_another_engines(best)) return false;
+    const std::size_t known = fits_.size();
+    add_to(best, kFewAdditions, {0, kAdding}, paying);
+    if (!paying.empty() &&
+        model_.surely_another_engines(*std::max_element(paying.begin(), paying.end(), less_evidence)))
+      return true;
+    fits_.erase(fits_.begin() + std::ptrdiff_t(known), fits_.end());
+    paying.clear();
+    return false;
+  }
+
+  // Fits of `base` and one effect more that pay; `most`: that are fitted.
+  void add_to(const Fit& base, std::size_t most, Part part, std::vector<Fit>& paying) {
     const Needed needed = addition_needed(model_, base, none_, thresholds_);
     const double held = model_.density_at(base.hypotheses, base.p);
     std::size_t fitted = 0;
@@ -199,7 +209,7 @@ class Search {
     std::map<std::string, double> tried_gain;
     std::vector<Fit> found;
     for (const Screen::Candidate& c : screen_.on_top_of(base)) {
-      if (fitted == kAdditionsFitted) break;
+      if (fitted == most) break;
       const auto [first, fresh] = tried_gain.try_emplace(c.hypothesis.effect, c.gain);
       if (!fresh && c.gain < first->second - kAnotherVariant) continue;
       // A local search for a place or a moment takes more simulations than all other fits.
@@ -208,7 +218,7 @@ class Search {
       const double hint = counts ? std::min(needed.hint, 0.5 * needed.counts) : needed.hint;
       if (c.gain < (c.hypothesis.search_cost > 0 ? 0.5 * needed.local : hint)) continue;
       if (c.reach.size() > 1) ++local_searches;
-      done(part.from + part.size * double(fitted) / double(kAdditionsFitted));
+      done(part.from + part.size * double(fitted) / double(most));
       auto fit = tried(base, c, held + kPartOfNeeded * needed.local);
       if (!fit) continue;
       ++fitted;

@@ -1,0 +1,86 @@
+// What a tracker does to the diagnosis: mounted by hand, noisy, and with counts that all lag alike.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "core/random.h"
+#include "gap/evidence/uneven_floor.h"
+#include "tests/gap/subject.h"
+
+namespace umbsim::gap {
+namespace {
+
+using testing::campaign;
+using testing::effect;
+using testing::Subject;
+
+/// The recording as a tracker sees it whose point is off the axle's middle and whose heading is off the drive axis.
+Recording mounted(Recording recording, const Pose2& X_BM) {
+  for (RecordedRun& run : recording.runs) {
+    for (TruthSample& s : run.truth) s.X_WB = s.X_WB * X_BM;
+  }
+  return recording;
+}
+
+const Pose2 kByHand{0.002, -0.003, 0.005};
+
+std::string first_of(const Diagnosis& d) {
+  std::cout << fmt::format("{} ({:.0f} %)\n", d.causes.front().name, 100 * d.causes.front().probability);
+  return d.causes.front().name;
+}
+
+// A robot whose wheels are toed alike drives askew, as one whose tracker is turned. The point that is off the axle
+// tells them apart.
+TEST(MountedTracker, IsNoToe) {
+  EXPECT_EQ(first_of(Subject(mounted(campaign({}, 51), kByHand)).diagnosed()), "none");
+  const std::vector<Effect> unequal{effect("wheel_radius_difference", {{"relative", 0.002}})};
+  EXPECT_EQ(first_of(Subject(mounted(campaign(unequal, 52), kByHand)).diagnosed()), "wheel_radius_difference");
+}
+
+TEST(MountedTracker, ToeIsFoundByAnExactOne) {
+  const std::vector<Effect> toed{effect("wheel_misalignment", {{"right_toe_rad", 0.006}})};
+  EXPECT_EQ(first_of(Subject(campaign(toed, 53)).diagnosed()), "wheel_misalignment");
+}
+
+// Passes are matched by the smooth course: matched by what a camera saw, those would meet that its noise moved alike.
+TEST(NoisyTracker, MakesNoUnevenFloor) {
+  constexpr double kCamera_m = 0.01;
+  Recording all = campaign({}, 54);
+  Scenario turned = testing::squares(2, 1);
+  testing::add_noise(turned, 55);
+  turned.runs.start_heading_rad = M_PI / 2;
+  for (RecordedRun run : run_experiment(turned, 0).recording.runs) {
+    run.id = run.direction + "-turned";
+    all.runs.push_back(run);
+  }
+  RandomStream random(7, "camera");
+  for (RecordedRun& run : all.runs) {
+    for (TruthSample& s : run.truth) {
+      s.X_WB.x_m += random.normal(0, kCamera_m);
+      s.X_WB.y_m += random.normal(0, kCamera_m);
+    }
+  }
+  all.truth_position_sd_m = kCamera_m;
+  const Subject p(all);
+  const auto found = find_uneven_floor(p.model, p.model.none());
+  EXPECT_FALSE(found) << fmt::format("{:.1f} standard errors", found->sigmas);
+}
+
+// One lag of all runs is one surprise, not one for each run: servos of another make lag by some more milliseconds.
+TEST(CountsThatLag, AreOneSurprise) {
+  constexpr double kLag_s = 0.03;
+  const Subject p(campaign({effect("motor_response", {{"lag_s", kLag_s}})}, 56));
+  const Fit none = p.model.none();
+  const double each = p.model.counts_misfit(none.predicted), once = p.model.counts_misfit(none);
+  const double prior = std::pow(kLag_s / Scatter{}.lag_s, 2);
+  std::cout << fmt::format("squares: {:.0f}, of each run {:.0f}; {:.0f} of the lag, {:.0f} rows\n", once, each, prior,
+                           p.model.count_rows());
+  EXPECT_GT(once, 0.8 * prior);
+  EXPECT_LT(once, prior + p.model.count_rows());
+  EXPECT_GT(each, 8 * std::pow(kLag_s / Scatter{}.counts_lag_s, 2));
+}
+
+}  // namespace
+}  // namespace umbsim::gap
