@@ -83,6 +83,10 @@ double replicate_log_likelihood(const std::vector<Difference>& differences, cons
   return total;
 }
 
+// Of a tracker that sees no heading (a total station) the column may hold anything, such as what the counts add up to:
+// runs that repeat so well say nothing of its noise.
+constexpr double kUnseen_rad = 1;
+
 // The likelihood's maximum over the noise model, by a coordinate search on logarithms: a handful of numbers.
 template <class Likelihood>
 NoiseModel most_likely(NoiseModel best, const Likelihood& log_likelihood) {
@@ -92,6 +96,7 @@ NoiseModel most_likely(NoiseModel best, const Likelihood& log_likelihood) {
   for (double factor = 4; factor > 1.1; factor = std::sqrt(factor)) {
     for (int sweep = 0; sweep < 2; ++sweep) {
       for (const auto member : members) {
+        if (member == &NoiseModel::heading_sd_rad && best.heading_sd_rad > kUnseen_rad) continue;
         for (const double f : {factor, 1 / factor}) {
           for (int step = 0; step < 6; ++step) {
             NoiseModel trial = best;

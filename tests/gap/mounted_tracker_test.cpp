@@ -68,6 +68,28 @@ TEST(NoisyTracker, MakesNoUnevenFloor) {
   EXPECT_FALSE(found) << fmt::format("{:.1f} standard errors", found->sigmas);
 }
 
+// A total station's heading is what the robot's own counts add up to: it repeats well, and says nothing.
+TEST(TotalStation, HeadingThatNobodySaw) {
+  Recording all = campaign({effect("wheel_radius_difference", {{"relative", 0.004}})}, 58);
+  const RecordedRobot& robot = all.robot;
+  const double k = 2 * M_PI * robot.wheel_radius_m / robot.ticks_per_revolution / robot.wheelbase_m;
+  RandomStream random(9, "total station");
+  for (RecordedRun& run : all.runs) {
+    std::size_t e = 0;
+    const double first = run.truth.front().X_WB.theta_rad;
+    for (TruthSample& s : run.truth) {
+      while (e + 1 < run.encoders.size() && run.encoders[e].time_s < s.time_s) ++e;
+      const double theta = first + k * double(run.encoders[e].right_ticks - run.encoders[e].left_ticks);
+      s.X_WB = {random.normal(s.X_WB.x_m, 0.002), random.normal(s.X_WB.y_m, 0.002), theta};
+    }
+  }
+  all.truth_position_sd_m = 0.002;
+  all.truth_heading_sd_rad = M_PI;
+  const Subject p(all);
+  EXPECT_NEAR(p.model.noise().heading_sd_rad, M_PI, 1e-3);
+  EXPECT_EQ(first_of(p.diagnosed()), "wheel_radius_difference");
+}
+
 // One lag of all runs is one surprise, not one for each run: servos of another make lag by some more milliseconds.
 TEST(CountsThatLag, AreOneSurprise) {
   constexpr double kLag_s = 0.03;
