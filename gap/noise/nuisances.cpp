@@ -164,8 +164,8 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   n.engine_sd = Eigen::VectorXd::Zero(layout.size());
   n.engine_sd.head(layout.tracker(0)) = n.shared_sds.front().head(layout.tracker(0));
   n.unexplained_sd = Eigen::VectorXd::Zero(layout.size());
-  // A simulator knows the truth exactly.
-  if (!layout.any_free()) n.shared_sds.push_back(of_same_engine(n.shared_sds.back(), layout, scatter));
+  for (std::size_t i = 0; i < n.of_another && !layout.any_free(); ++i)
+    n.shared_sds.push_back(of_same_engine(n.shared_sds[i], layout, scatter));
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
     const Eigen::Index first = layout.group(g);
     // Between turns in place only the moments at which a turn begins and ends roll in an arc: engines differ there.
