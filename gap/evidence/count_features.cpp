@@ -6,12 +6,11 @@
 
 namespace umbsim::gap {
 
-// With what counts against commands are measured; where they are judged alone, with what engines surely differ by.
+// With what counts against commands are measured; where they are judged alone, with what engines differ by.
 CountsSd Model::counts_sd(std::size_t run, bool alone) const {
   const CommandResponse& measured = measured_.counted[run];
   if (!measured.known) return CountsSd::Zero();
-  const double gain =
-      std::hypot(scatter_.gain, measured.gain_sd, alone && taken_for_another_engines_ ? scatter_.engine_gain : 0);
+  const double gain = std::hypot(scatter_.gain, measured.gain_sd, alone ? scatter_.engine_gain : 0);
   return {gain, gain, alone ? scatter_.counts_lag_s : scatter_.run_lag_s};
 }
 

@@ -137,8 +137,10 @@ Fit Model::none() const {
 }
 
 Fit Model::held(Fit fit) const {
-  fit.nuisance =
-      evidence(grams(residuals(fit.predicted), {}), all_runs(), first_columns(nuisances()), nuisance_sds()).mean;
+  const Evidence e =
+      evidence(grams(residuals(fit.predicted), {}), all_runs(), first_columns(nuisances()), nuisance_sds());
+  fit.nuisance = e.mean;
+  fit.prior = e.prior;
   return fit;
 }
 

@@ -14,7 +14,7 @@ namespace umbsim::gap {
 namespace {
 
 constexpr std::size_t kAdditionsFitted = 5;
-constexpr std::size_t kFewAdditions = 2;
+constexpr std::size_t kFewAdditions = 2;  // to runs that are searched again
 constexpr std::size_t kLocalSearches = 3;
 constexpr int kRounds = 7;
 constexpr int kFewerRounds = 4;  // what is there already has been fitted
