@@ -20,6 +20,22 @@ constexpr int kMostTries = 200;         // simulations of the runs in the search
 constexpr std::ptrdiff_t kBegunOn = 3;  // runs
 constexpr std::size_t kKeptOfFew = 3;   // starts for each local search, to be tried on all runs
 
+using Density = std::function<double(const Eigen::VectorXd&)>;
+
+// The same, and next to nothing where the robot cannot be driven: it tips over, or does not stand at its start, on a
+// cable or without a wheel's floor.
+Density where_driven(Density density) {
+  return [density = std::move(density)](const Eigen::VectorXd& numbers) {
+    try {
+      return density(numbers);
+    } catch (const RunError&) {
+      return -1e300;
+    } catch (const InputError&) {
+      return -1e300;
+    }
+  };
+}
+
 }  // namespace
 
 std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, const Fit& base,
@@ -27,51 +43,38 @@ std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, con
                                                          const std::vector<std::size_t>& runs) {
   std::vector<Hypothesis> hypotheses = base.hypotheses;
   hypotheses.push_back(hypothesis);
-  return [&model, hypotheses, runs, p = base.p](const Eigen::VectorXd& numbers) {
+  return where_driven([&model, hypotheses, runs, p = base.p](const Eigen::VectorXd& numbers) {
     Eigen::VectorXd all(p.size() + numbers.size());
     all << p, numbers;
-    try {
-      return model.density_at(hypotheses, all, runs);
-    } catch (const RunError&) {
-      return -1e300;
-    } catch (const InputError&) {
-      return -1e300;  // it does not stand at its start, on a cable or without a wheel's floor
-    }
-  };
+    return model.density_at(hypotheses, all, runs);
+  });
 }
 
 namespace {
 
 // The same where the hypothesis is driven alone, and what it changes is put on top of `base`: what happens at a place
 // hardly hangs on what else is wrong with the robot, and the place was driven without it, too.
-std::function<double(const Eigen::VectorXd&)> density_beside(const Model& model, const Fit& base,
-                                                             const Hypothesis& hypothesis,
-                                                             const std::vector<std::size_t>& some = {}) {
+Density density_beside(const Model& model, const Fit& base, const Hypothesis& hypothesis,
+                       const std::vector<std::size_t>& some = {}) {
   if (base.hypotheses.empty()) return density_on(model, base, hypothesis, some);
   const std::vector<std::size_t> runs = some.empty() ? model.all_runs() : some;
   std::vector<Eigen::VectorXd> before = model.residuals(base.predicted);
   const std::vector<Eigen::VectorXd> alone = model.residuals(model.none().predicted);
   for (std::size_t r = 0; r < before.size(); ++r) before[r] -= alone[r];
-  return [&model, hypothesis, runs, before, others = base.effects()](const Eigen::VectorXd& numbers) {
+  return where_driven([&model, hypothesis, runs, before, others = base.effects()](const Eigen::VectorXd& numbers) {
     std::vector<Effect> effects = effects_of(hypothesis, numbers);
-    try {
-      std::vector<Eigen::VectorXd> residual = model.residuals(model.predict({effects}, runs).front());
-      for (const std::size_t r : runs) residual[r] += before[r];
-      effects.insert(effects.end(), others.begin(), others.end());
-      return evidence(model.grams(residual, {}), runs, first_columns(model.nuisances()), model.nuisance_sds())
-                 .log_density +
-             model.log_chance(effects);
-    } catch (const RunError&) {
-      return -1e300;
-    } catch (const InputError&) {
-      return -1e300;
-    }
-  };
+    std::vector<Eigen::VectorXd> residual = model.residuals(model.predict({effects}, runs).front());
+    for (const std::size_t r : runs) residual[r] += before[r];
+    effects.insert(effects.end(), others.begin(), others.end());
+    return evidence(model.grams(residual, {}), runs, first_columns(model.nuisances()), model.nuisance_sds())
+               .log_density +
+           model.log_chance(effects);
+  });
 }
 
 // The top of the hill from one start; `closely`: a start that is near it.
-Eigen::VectorXd local_search(const std::function<double(const Eigen::VectorXd&)>& density, const Screen::Candidate& c,
-                             const Eigen::VectorXd& start, bool closely) {
+Eigen::VectorXd local_search(const Density& density, const Screen::Candidate& c, const Eigen::VectorXd& start,
+                             bool closely) {
   Eigen::VectorXd reach = closely ? kClosely * c.reach : c.reach;
   Eigen::VectorXd min(start.size());
   Eigen::VectorXd max(start.size());
@@ -83,12 +86,8 @@ Eigen::VectorXd local_search(const std::function<double(const Eigen::VectorXd&)>
   return subplex(density, start, reach, min, max, closely ? 4 * kLeastStep : kLeastStep, kMostTries);
 }
 
-}  // namespace
-
-namespace {
-
 // The best starts of different hills, best first, as some runs see them; the density of the first.
-double keep_best(const std::function<double(const Eigen::VectorXd&)>& density, std::size_t most, Screen::Candidate& c) {
+double keep_best(const Density& density, std::size_t most, Screen::Candidate& c) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < c.starts.size(); ++i) order.push_back({-density(c.starts[i]), i});
   std::sort(order.begin(), order.end());
@@ -166,8 +165,7 @@ Eigen::VectorXd without_place(const Eigen::VectorXd& numbers, const Placed& plac
 }
 
 // Log density of numbers of the place, those of the other effects integrated out by their derivatives in the fit.
-std::function<double(const Eigen::VectorXd&)> density_beside_others(const Model& model, const Fit& fit,
-                                                                    const Placed& place) {
+Density density_beside_others(const Model& model, const Fit& fit, const Placed& place) {
   const Eigen::VectorXd other_sd = without_place(prior_sd_of(fit.hypotheses), place);
   std::vector<Eigen::MatrixXd> columns;
   for (const Eigen::MatrixXd& c : fit.columns) {

@@ -32,10 +32,6 @@ double shown_start(const std::string& effect, const CommandFeatures& h) {
   return std::nan("");
 }
 
-Eigen::VectorXd vector_of(const std::vector<double>& x) {
-  return Eigen::Map<const Eigen::VectorXd>(x.data(), Eigen::Index(x.size()));
-}
-
 // What is seen at places and at moments, as strong as the strongest of `others` at most.
 void no_stronger_than(const Impulses& others, Impulses& impulses) {
   const double place = others.places.empty() ? 0 : others.places.front().gain;
@@ -141,7 +137,7 @@ void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) con
     c.hypothesis = std::move(hypothesis);
     c.start = starts.front();
     c.starts = starts;
-    c.reach = vector_of(reach);
+    c.reach = Eigen::Map<const Eigen::VectorXd>(reach.data(), Eigen::Index(reach.size()));
     c.local_searches = local_searches;
     // Where grip is missing the best start says little of the top of its hill.
     c.any_start = c.hypothesis.effect == "slippery_patch";

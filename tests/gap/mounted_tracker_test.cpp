@@ -47,14 +47,7 @@ TEST(MountedTracker, ToeIsFoundByAnExactOne) {
 // Passes are matched by the smooth course: matched by what a camera saw, those would meet that its noise moved alike.
 TEST(NoisyTracker, MakesNoUnevenFloor) {
   constexpr double kCamera_m = 0.01;
-  Recording all = campaign({}, 54);
-  Scenario turned = testing::squares(2, 1);
-  testing::add_noise(turned, 55);
-  turned.runs.start_heading_rad = M_PI / 2;
-  for (RecordedRun run : run_experiment(turned, 0).recording.runs) {
-    run.id = run.direction + "-turned";
-    all.runs.push_back(run);
-  }
+  Recording all = testing::turned_campaign({}, 54);
   RandomStream random(7, "camera");
   for (RecordedRun& run : all.runs) {
     for (TruthSample& s : run.truth) {

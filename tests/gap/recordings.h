@@ -82,6 +82,20 @@ inline Recording campaign(const std::vector<Effect>& hidden, std::uint64_t seed,
   return all;
 }
 
+/// The same with squares whose start is turned by 90 degrees: every place is passed in two directions.
+inline Recording turned_campaign(const std::vector<Effect>& hidden, std::uint64_t seed) {
+  Recording all = campaign(hidden, seed);
+  Scenario turned = squares(2, 1);
+  add_noise(turned, seed + 3000);
+  turned.effects = hidden;
+  turned.runs.start_heading_rad = M_PI / 2;
+  for (RecordedRun run : run_experiment(turned, 0).recording.runs) {
+    run.id = run.direction + "-turned";
+    all.runs.push_back(run);
+  }
+  return all;
+}
+
 inline gap::Simulator simulator(const Replay& replay) {
   return {[&replay](std::size_t run, const std::vector<Effect>& effects, double roughness_m_per_sqrt_m) {
             return replay.poses(run, effects, roughness_m_per_sqrt_m);

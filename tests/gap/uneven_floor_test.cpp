@@ -19,20 +19,7 @@ namespace {
 using testing::campaign;
 using testing::effect;
 using testing::Subject;
-
-/// With squares that begin a quarter turn further: they pass the legs of the others the other way.
-Recording turned_campaign(const std::vector<Effect>& hidden, std::uint64_t seed) {
-  Recording all = campaign(hidden, seed);
-  Scenario turned = testing::squares(2, 1);
-  testing::add_noise(turned, seed + 3000);
-  turned.effects = hidden;
-  turned.runs.start_heading_rad = M_PI / 2;
-  for (RecordedRun run : run_experiment(turned, 0).recording.runs) {
-    run.id = run.direction + "-turned";
-    all.runs.push_back(run);
-  }
-  return all;
-}
+using testing::turned_campaign;
 
 const Effect kUneven = effect("uneven_floor", {{"rms_m", 0.002}, {"wavelength_m", 0.5}, {"seed", 5}});
 

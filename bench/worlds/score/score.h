@@ -31,7 +31,8 @@ struct WorldFigures {
   int undetectable = 0;
   int failed = 0;
   Figure false_alarm;     ///< of cases without effect
-  Figure quiet_alarm;     ///< of those in worlds that are off by less than half a noise floor themselves
+  Figure pose_alarm;      ///< of those, something named that moves the robot by over half a noise floor
+  Figure quiet_alarm;     ///< of cases without effect in worlds that are off by less than half a noise floor themselves
   Figure right;           ///< first cause exactly right, one effect that shows
   Figure named;           ///< truth among the named: one to three effects that show
   Figure not_there;       ///< something named that is not there and worth over half a noise floor

@@ -112,6 +112,9 @@ WorldFigures world_figures(const Cases& cases) {
   f.false_alarm = share_of(
       cases, "false_alarm", [](const WorldVerdict& v) { return v.kind == "none"; },
       [](const WorldVerdict& v) { return v.verdict.detected; });
+  f.pose_alarm = share_of(
+      cases, "pose_alarm", [](const WorldVerdict& v) { return v.kind == "none"; },
+      [](const WorldVerdict& v) { return v.names_more(); });
   f.quiet_alarm = share_of(
       cases, "quiet_alarm", [](const WorldVerdict& v) { return v.kind == "none" && v.of_the_world < kWorthNaming; },
       [](const WorldVerdict& v) { return v.verdict.detected; });

@@ -13,6 +13,7 @@ struct Column {
 
 constexpr Column kColumns[] = {
     {"false_alarm", "false alarm", &WorldFigures::false_alarm},
+    {"pose_alarm", "for the poses", &WorldFigures::pose_alarm},
     {"quiet_alarm", "in quiet worlds", &WorldFigures::quiet_alarm},
     {"right", "first cause right", &WorldFigures::right},
     {"named", "truth among the named", &WorldFigures::named},
