@@ -42,11 +42,15 @@ TEST(WorldScore, CountsWhatItSays) {
   v[3].verdict.diagnosis.closure = 0.5;
   v.push_back(verdict("single", "wear", "none"));
   v.back().verdict.answer.undetectable_expected = true;
+  v.push_back(verdict("none", "none", "motor_response"));  // a lag that commands show, and hardly a pose
+  v.back().not_there = {0.1};
   const WorldFigures f = figures_of(v);
-  EXPECT_EQ(f.cases, 8);
+  EXPECT_EQ(f.cases, 9);
   EXPECT_EQ(f.undetectable, 1);
-  EXPECT_EQ(f.false_alarm.hits, 1);
-  EXPECT_EQ(f.false_alarm.cases, 2);
+  EXPECT_EQ(f.false_alarm.hits, 2);
+  EXPECT_EQ(f.false_alarm.cases, 3);
+  EXPECT_EQ(f.pose_alarm.hits, 1);
+  EXPECT_EQ(f.pose_alarm.cases, 3);
   EXPECT_EQ(f.right.hits, 1);
   EXPECT_EQ(f.right.cases, 3);
   EXPECT_EQ(f.named.hits, 3);  // bump, push beside wear, and the three
