@@ -11,7 +11,8 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr double kEnds_m = 0.3;  // of a leg that count as its start and its stop
+constexpr std::size_t kSegments = 12;  // at most, of those that speak against no effect
+constexpr double kEnds_m = 0.3;        // of a leg that count as its start and its stop
 const Eigen::Vector3d kRateSd(2e-3, 2e-3, 2e-3);
 
 struct Part {
@@ -52,8 +53,8 @@ std::vector<Part> parts_of(const Model& model, std::size_t r) {
   return parts;
 }
 
-}  // namespace
-
+// How much evidence each leg's start, cruise and stop and each turn of every run gives against the prediction of a fit,
+// most first.
 std::vector<SegmentScore> segment_scores(const Model& model, const Fit& fit) {
   const std::vector<Eigen::VectorXd> left = model.left_over(fit);
   std::vector<std::vector<SegmentScore>> per_run(left.size());
@@ -86,6 +87,8 @@ std::vector<SegmentScore> segment_scores(const Model& model, const Fit& fit) {
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
   return all;
 }
+
+}  // namespace
 
 std::string pattern_of(const std::string& effect) {
   static const std::map<std::string, std::string> patterns = {{"wheel_radius_scale", "legs"},
@@ -163,6 +166,9 @@ LeftOver describe_left_over(const Model& model, const Fit& fit) {
   return left;
 }
 
+namespace {
+
+// The wheel that passes a place of the floor, "left" or "right"; empty if both do, or neither.
 std::string wheel_at(const Model& model, double x_m, double y_m) {
   const double half_m = model.recording().robot.wheelbase_m / 2;
   double nearest_m[] = {1e300, 1e300};
@@ -179,6 +185,7 @@ std::string wheel_at(const Model& model, double x_m, double y_m) {
   return passes[0] ? "left" : "right";
 }
 
+// Of a cable or a patch, or where the robot was when it was pushed.
 void find_place(const Model& model, const Fit& fit, Diagnosis& d) {
   for (const Effect& e : fit.effects()) {
     const std::string pattern = pattern_of(e.info->name);
@@ -206,6 +213,19 @@ void find_place(const Model& model, const Fit& fit, Diagnosis& d) {
       }
     }
   }
+}
+
+}  // namespace
+
+void say_where(const Model& model, const Fit& none, const Fit& best, Diagnosis& d) {
+  d.segments = segment_scores(model, none);
+  if (d.segments.size() > kSegments) d.segments.resize(kSegments);
+  if (!d.detected || best.hypotheses.empty()) return;
+  // The effect that explains most names the stage.
+  d.stage = name(find_effect(best.hypotheses.front().effect).stage);
+  d.pattern = pattern_of(best.hypotheses.front().effect);
+  find_place(model, best, d);
+  if (d.has_place) d.place_wheel = wheel_at(model, d.place_m[0], d.place_m[1]);
 }
 
 }  // namespace umbsim::gap

@@ -1,0 +1,187 @@
+#include "gap/answer/explanation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "gap/answer/closure.h"
+#include "gap/answer/not_fitted.h"
+#include "gap/answer/twin.h"
+#include "gap/answer/where.h"
+#include "gap/evidence/evidence.h"
+#include "gap/evidence/track_misfit.h"
+#include "gap/evidence/uneven_floor.h"
+
+namespace umbsim::gap {
+namespace {
+
+constexpr double kAhead = 1;  // log evidence of what is named for what it foretells
+
+std::vector<std::string> names_of(const Fit& fit) {
+  std::vector<std::string> names;
+  for (const Hypothesis& f : fit.hypotheses) names.push_back(f.effect);
+  return names;
+}
+
+void put_none_first(const Thresholds& t, Diagnosis& d) {
+  const auto at = std::find_if(d.causes.begin(), d.causes.end(), [](const Cause& c) { return c.name == "none"; });
+  std::rotate(d.causes.begin(), at, at + 1);
+  double& score = d.causes.front().score;
+  score = std::max(score, d.causes.size() > 1 ? d.causes[1].score + t.effect_cost : 0);
+}
+
+// What is named in place of unknown, ahead of what the search found best.
+void put_first(const Fit& fit, double leftover, Diagnosis& d) {
+  const double score = d.causes.front().score + 0.5 * leftover;
+  const auto same = [&](const Cause& c) { return c.name == fit.name(); };
+  d.causes.erase(std::remove_if(d.causes.begin(), d.causes.end(), same), d.causes.end());
+  d.causes.insert(d.causes.begin(), Cause{fit.name(), fit, score, 0});
+}
+
+// An effect that is found, but not fitted, in place of what would be unknown. Whether there is one.
+bool named_without_fit(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis& d) {
+  if (w.may_name("uneven_floor")) {
+    if (const auto uneven = with_uneven_floor(w.model, w.none, best, left.lack, w.thresholds)) {
+      if (uneven->hypotheses.size() == 1) add_nothing(d.closure);
+      best = *uneven;
+      put_first(best, left.all(), d);
+      d.not_fitted = true;
+      d.limits.push_back("an uneven floor's shape is not fitted: the twin has no such floor");
+      return true;
+    }
+  }
+  const auto shown = shown_commanded_motion(w.model, d.causes, w.none, w.left_by_none.steady, w.thresholds);
+  if (!shown) return false;
+  add_nothing(d.closure);
+  best = *shown;
+  put_first(best, left.all(), d);
+  d.not_fitted = true;
+  d.limits.push_back("commands show the demand; how the tyres slip under it is not reproduced");
+  return true;
+}
+
+// "unknown" among the causes: ahead of them, or behind.
+void add_unknown(const Context& w, const Fit& best, bool leads, double leftover, Diagnosis& d) {
+  Cause cause{"unknown", best, 0, 0};
+  cause.fit.hypotheses.clear();
+  const Thresholds& t = w.thresholds;
+  cause.score = leads ? d.causes.front().score + 0.5 * leftover
+                      : std::min(w.left_by_none.steady - 2 * t.effect_cost, d.causes.front().score - t.detect);
+  d.causes.push_back(std::move(cause));
+  std::stable_sort(d.causes.begin(), d.causes.end(), [](const Cause& a, const Cause& b) { return a.score > b.score; });
+}
+
+// What foretells held-out runs is in the twin, whatever remains.
+void make_twin(const Context& w, bool unknown, Diagnosis& d) {
+  Fit twin = d.explanation;
+  keep_what_foretells(w.model, twin, d.closure);
+  const bool misleads = d.closure.known && d.closure.fraction < 0;
+  if (!misleads && !(unknown && (!d.closure.known || d.closure.fraction == 0))) d.twin = std::move(twin);
+  if (d.twin_is_nominal()) add_nothing(d.closure);
+  if (misleads && !unknown)
+    d.limits.push_back("what was found foretells the other runs badly: the twin goes without it");
+  else if (!d.twin_is_nominal() && d.twin.hypotheses.size() < d.explanation.hypotheses.size())
+    d.limits.push_back(
+        fmt::format("the twin holds {} alone: the rest foretells held-out runs no better", d.twin.name()));
+}
+
+// Whether only what mends contacts is in the explanation and not in the twin.
+bool twin_lacks_mends_alone(const Model& model, const Diagnosis& d) {
+  const auto in_twin = [&](const std::string& effect) {
+    return std::any_of(d.twin.hypotheses.begin(), d.twin.hypotheses.end(),
+                       [&](const Hypothesis& h) { return h.effect == effect; });
+  };
+  return std::all_of(d.explanation.hypotheses.begin(), d.explanation.hypotheses.end(), [&](const Hypothesis& h) {
+    return in_twin(h.effect) || !is_kinematic(h.effect) || mends_contacts(model, h.effect);
+  });
+}
+
+// On another engine's recordings a contact's effect, or a dimension, beside others that takes too little away on
+// held-out runs, and does not show in counts, is no cause: it mends how the two engines' contacts differ. The
+// combination with it stays behind, as not told apart.
+void name_what_foretells(const Context& w, Fit& best, Diagnosis& d) {
+  if (d.twin_is_nominal() || d.twin.hypotheses.size() == d.explanation.hypotheses.size()) return;
+  if (w.model.same_engine(best) || !twin_lacks_mends_alone(w.model, d)) return;
+  const double counts = w.model.counts_misfit(d.explanation.predicted);
+  if (w.model.counts_misfit(d.twin.predicted) > counts + 2 * w.thresholds.addition) return;
+  best = d.explanation = d.twin;
+  put_first(best, 2 * kAhead, d);
+}
+
+// Whether another engine made recordings whose tracks stray by no more than noise makes them. What contacts do is no
+// gap then: they differ from engine to engine.
+bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
+  if (w.model.taken_for_another_engines()) {
+    const double before_mm = 1000 * std::sqrt(mean_square_error_m2(w.model, w.none.predicted.tracks));
+    if (before_mm > most_hidden_mm(w.model)) return false;
+  } else if (w.model.same_engine(fit) || closure.before_mm == 0 || closure.before_mm > closure.most_noise_mm) {
+    return false;
+  }
+  // What comes again wherever runs pass the same places is the floor's.
+  return !w.may_name("uneven_floor") || !may_be_uneven_floor(w.model, w.none);
+}
+
+// The fit of what rolls, of what counts show, or of a place or moment that is all that is found, and closes a gap.
+Fit without_contacts(const Model& model, Fit fit, const Closure& closure) {
+  if (model.taken_for_another_engines() && closure.known && fit.hypotheses.size() == 1 && fit.is_local()) return fit;
+  const auto contact = [](const Hypothesis& h) { return is_contact(h.effect); };
+  for (;;) {
+    const auto at = std::find_if(fit.hypotheses.begin(), fit.hypotheses.end(), contact);
+    if (at == fit.hypotheses.end()) return fit;
+    fit = model.without(fit, std::size_t(at - fit.hypotheses.begin()));
+  }
+}
+
+// Leaves what contacts do within the noise of another engine's recordings out. Whether anything stays.
+bool name_beside_noise(const Context& w, Fit& best, Diagnosis& d) {
+  const std::size_t effects = best.hypotheses.size();
+  best = without_contacts(w.model, best, d.closure);
+  if (best.hypotheses.size() < effects || effects == 0)
+    d.limits.push_back(
+        "no track strays by more than noise makes it: how engines' contacts differ is not told from an effect");
+  if (best.hypotheses.empty()) {
+    d.detected = d.unexplained = false;
+    d.p_value = 1;
+    put_none_first(w.thresholds, d);
+    return false;
+  }
+  if (best.hypotheses.size() < effects) {
+    put_first(best, 2 * kAhead, d);
+    d.closure = held_out_closure(w.model, best);
+  }
+  return true;
+}
+
+}  // namespace
+
+void detect(const Context& w, Diagnosis& d) {
+  const Cause& front = d.causes.front();
+  const double named = front.name == "none" ? 0 : front.score;
+  const double not_named = w.left_by_none.all();
+  const Thresholds& t = w.thresholds;
+  const double enough = w.model.same_engine(front.fit) ? enough_to_detect(names_of(front.fit), t) : t.detect;
+  d.detected = not_named > t.detect || named > enough;
+  d.p_value = chi_squared_tail(2 * std::max({0.0, named, not_named}), 2);
+  if (!d.detected) put_none_first(t, d);
+}
+
+void explain(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis& d) {
+  const Thresholds& t = w.thresholds;
+  d.closure = held_out_closure(w.model, best);
+  const bool hidden = hidden_in_noise(w, best, d.closure);
+  if (hidden && !name_beside_noise(w, best, d)) return;
+  const bool unknown = !hidden && !worth_more_than_rest(w.model, best, d.closure) &&
+                       is_unknown(w.model, best, w.explained_by(best), d.closure, left, w.left_by_none, t) &&
+                       !named_without_fit(w, left, best, d);
+  add_unknown(w, best, unknown, left.all(), d);
+  d.left_over = describe_left_over(w.model, best);
+  d.explanation = best;
+  make_twin(w, unknown, d);
+  if (!unknown) name_what_foretells(w, best, d);
+  d.remainder = remainder_of(w.model, w.screen, w.none, d, left.all());
+}
+
+}  // namespace umbsim::gap
