@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/choices.h"
 #include "core/data_folder.h"
 #include "core/error.h"
+#include "core/text/choices.h"
 
 namespace umbsim {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 #include "effects/rig.h"
 
 namespace umbsim {
@@ -18,15 +18,15 @@ struct EffectParameter {
   std::string name;
   std::string unit;  ///< "1" for a ratio
   double neutral = 0;
-  Bounds bounds;     ///< outside: refused
+  Bounds bounds;             ///< outside: refused
   double plausible_min = 0;  ///< magnitudes met on real robots
   double plausible_max = 0;
-  double typical = 0;        ///< shown in the effect's own scenario
+  double typical = 0;  ///< shown in the effect's own scenario
 };
 
 /// What the catalogue says of an effect beside its parameters.
 struct EffectText {
-  std::string lecture;        ///< where the lecture lists it
+  std::string lecture;  ///< where the lecture lists it
   std::string source;
   std::string description;    ///< one line
   std::string signature;      ///< what it looks like in the data
@@ -68,8 +68,8 @@ Effect neutral_effect(const EffectInfo& info);
 std::vector<Effect> read_effects(const YamlValue& value);
 
 /// `believed` with `more` on top. An effect that both have has its parameters' departures from neutral added, within
-/// their bounds; where 0 stands for the scenario's own the new value goes; effects of a place or of one run stand beside
-/// each other.
+/// their bounds; where 0 stands for the scenario's own the new value goes; effects of a place or of one run stand
+/// beside each other.
 std::vector<Effect> combined(std::vector<Effect> believed, const std::vector<Effect>& more);
 
 /// Effects with their values as bytes: equal for equal effects alone.

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "odometry/encoder.h"
-#include "sim/drivetrain.h"
-#include "sim/floor.h"
-#include "sim/push.h"
-#include "sim/robot_model.h"
+#include "sim/model/drivetrain.h"
+#include "sim/model/floor.h"
+#include "sim/model/push.h"
+#include "sim/model/robot_model.h"
 
 namespace umbsim {
 

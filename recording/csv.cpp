@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 
 namespace umbsim {
 namespace {

@@ -3,8 +3,8 @@
 #include <map>
 #include <set>
 
-#include "core/text_file.h"
-#include "core/yaml_reader.h"
+#include "core/text/text_file.h"
+#include "core/text/yaml_reader.h"
 #include "recording/csv.h"
 #include "recording/names.h"
 #include "recording/read_waypoints.h"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 #include "recording/recording.h"
 
 namespace umbsim {

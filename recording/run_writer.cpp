@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/decimal.h"
 #include "core/error.h"
+#include "core/text/decimal.h"
 #include "recording/names.h"
 
 namespace umbsim {

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "recording/names.h"
 #include "recording/run_writer.h"
 #include "recording/yaml_text.h"

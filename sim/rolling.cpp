@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/sticking.h"
+#include "sim/dynamics/sticking.h"
 #include "sim/world_state.h"
 
 namespace umbsim {

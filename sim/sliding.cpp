@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "sim/sticking.h"
+#include "sim/dynamics/sticking.h"
 #include "sim/world_state.h"
 
 namespace umbsim {

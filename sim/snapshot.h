@@ -4,13 +4,13 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "sim/contact_solver.h"
+#include "sim/dynamics/contact_solver.h"
 #include "sim/world.h"
 
 namespace umbsim {
 
 /// What a world carries from one moment to the next. `joint_rad`, `velocity`: as many as the robot has
-/// (sim/multibody.h), zero beyond.
+/// (sim/dynamics/multibody.h), zero beyond.
 struct Snapshot {
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
   Eigen::Vector3d p_WB_m = Eigen::Vector3d::Zero();

@@ -1,13 +1,13 @@
 #include "sim/standing.h"
 
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Geometry>
-#include <fmt/format.h>
-
-#include "sim/inertia.h"
+#include "sim/model/inertia.h"
 #include "sim/world_state.h"
 
 namespace umbsim {

@@ -1,20 +1,19 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "core/error.h"
-#include "sim/robot_model.h"
+#include "sim/model/robot_model.h"
 
 namespace umbsim {
 
 /// How an upright robot moves on the floor, robot frame. Accelerations of the axle's middle.
 struct FloorMotion {
   double forward_mps2 = 0;
-  double left_mps2 = 0;          ///< on an arc: speed times turning speed
+  double left_mps2 = 0;  ///< on an arc: speed times turning speed
   double turning_radps2 = 0;
   double turning_speed2_radps2 = 0;  ///< square of the turning speed
 };
@@ -33,7 +32,7 @@ struct Standing {
 
 /// How a robot came off its supports. Times since World::place.
 struct Fall {
-  double stood_s = 0;      ///< the last moment at which its supports held it
+  double stood_s = 0;  ///< the last moment at which its supports held it
   double noticed_s = 0;
   double tilt_rad = 0;     ///< of the base, when it was noticed
   double heading_rad = 0;  ///< at the last moment that it stood

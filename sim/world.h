@@ -1,17 +1,16 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "core/pose2.h"
-#include "sim/drivetrain.h"
-#include "sim/floor.h"
-#include "sim/push.h"
-#include "sim/robot_model.h"
+#include "sim/model/drivetrain.h"
+#include "sim/model/floor.h"
+#include "sim/model/push.h"
+#include "sim/model/robot_model.h"
 #include "sim/standing.h"
 
 namespace umbsim {
@@ -60,7 +59,8 @@ struct WheelStrain {
 struct Snapshot;
 
 /// A robot on a floor: Bullet's articulated-body dynamics (btMultiBody), contacts of ideal round shapes, and a
-/// direct contact solver (sim/contact_solver.h). Knows nothing of effects: it simulates the description it is given.
+/// direct contact solver (sim/dynamics/contact_solver.h). Knows nothing of effects: it simulates the description it is
+/// given.
 class World {
  public:
   World(const RobotModel& robot, const Drivetrain& drivetrain, const Floor& floor, const PhysicsOptions& options,
@@ -76,15 +76,15 @@ class World {
   /// Wheel speeds at the end of the next `advance`, forward positive. Throws InputError beyond 1e6 rad/s either way.
   void command(double left_radps, double right_radps);
 
-  /// Simulates `duration_s`. Throws RunError if the state becomes non-finite, TippedOver if the robot no longer stands on
-  /// its wheels and casters: it leans by more than kTippedOver_rad, or what touches the floor lies on one line for longer
-  /// than kMoment_s.
+  /// Simulates `duration_s`. Throws RunError if the state becomes non-finite, TippedOver if the robot no longer stands
+  /// on its wheels and casters: it leans by more than kTippedOver_rad, or what touches the floor lies on one line for
+  /// longer than kMoment_s.
   void advance(double duration_s);
 
   /// The moment at the end of the last `advance`.
   Snapshot snapshot() const;
-  /// Goes on from a moment of a world with the same robot, drivetrain and options, on this world's floor. `X_moved`: the
-  /// robot is carried there from where it was, turned about the floor's origin and then shifted.
+  /// Goes on from a moment of a world with the same robot, drivetrain and options, on this world's floor. `X_moved`:
+  /// the robot is carried there from where it was, turned about the floor's origin and then shifted.
   void resume(const Snapshot& then, const Pose2& X_moved);
 
   void lay_cable(const Cable& cable);

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "sim/contact.h"
-#include "sim/contact_solver.h"
-#include "sim/multibody.h"
-#include "sim/sticking.h"
+#include "sim/dynamics/contact.h"
+#include "sim/dynamics/contact_solver.h"
+#include "sim/dynamics/multibody.h"
+#include "sim/dynamics/sticking.h"
 #include "sim/world.h"
 
 namespace umbsim {

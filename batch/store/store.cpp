@@ -6,7 +6,7 @@
 
 #include "batch/store/store_schema.h"
 #include "core/error.h"
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 
 namespace umbsim {
 namespace {

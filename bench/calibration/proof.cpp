@@ -11,7 +11,7 @@
 #include "bench/calibration/page.h"
 #include "bench/calibration/robots.h"
 #include "calibration/methods/methods.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "experiment/run.h"
 
 namespace umbsim::bench {

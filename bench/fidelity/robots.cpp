@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sim/inertia.h"
+#include "sim/model/inertia.h"
 
 namespace umbsim::fidelity {
 namespace {
@@ -39,8 +39,8 @@ Body body_of(const RobotModel& robot) {
   const Wheel& wheel = robot.wheels[0];
   const Caster& ball = robot.casters.at(0);
   const Eigen::Vector3d above_floor(0, 0, wheel.radius_m);
-  return {all.mass_kg,          all.com_m + above_floor, all.inertia_kgm2, robot.wheelbase_m() / 2, ball.centre_m.x(),
-          ball.centre_m.y(),    ball.friction,           wheel.radius_m,   wheel.spin_inertia_kgm2};
+  return {all.mass_kg,       all.com_m + above_floor, all.inertia_kgm2, robot.wheelbase_m() / 2, ball.centre_m.x(),
+          ball.centre_m.y(), ball.friction,           wheel.radius_m,   wheel.spin_inertia_kgm2};
 }
 
 PhysicsOptions rigid(double step_s) {

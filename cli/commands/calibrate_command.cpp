@@ -18,8 +18,8 @@
 #include "cli/output/pages.h"
 #include "cli/output/tables.h"
 #include "core/error.h"
-#include "core/text_file.h"
-#include "core/wrapped_text.h"
+#include "core/text/text_file.h"
+#include "core/text/wrapped_text.h"
 #include "experiment/output/result_folder.h"
 #include "experiment/output/result_json.h"
 

@@ -4,7 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/help/help.h"
-#include "core/wrapped_text.h"
+#include "core/text/wrapped_text.h"
 #include "effects/catalogue.h"
 
 namespace umbsim {
@@ -37,8 +37,10 @@ void add_effects_command(CLI::App& app) {
   command->add_option("name", *wanted, "Effect to describe");
   add_example(command, "umbsim effects wheelbase");
   command->callback([wanted] {
-    if (wanted->empty()) list_effects();
-    else show_effect(find_effect(*wanted));
+    if (wanted->empty())
+      list_effects();
+    else
+      show_effect(find_effect(*wanted));
   });
 }
 

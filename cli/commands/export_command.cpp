@@ -7,8 +7,8 @@
 
 #include "cli/commands.h"
 #include "cli/help/help.h"
-#include "core/text_file.h"
-#include "core/wrapped_text.h"
+#include "core/text/text_file.h"
+#include "core/text/wrapped_text.h"
 #include "exchange/export/mcap_log.h"
 #include "exchange/export/one_log.h"
 #include "exchange/export/result.h"

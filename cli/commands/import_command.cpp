@@ -8,7 +8,7 @@
 #include "cli/commands/import_options.h"
 #include "cli/help/help.h"
 #include "cli/output/import_text.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "exchange/import/imported.h"
 #include "exchange/import/paths_svg.h"
 #include "experiment/output/result_folder.h"

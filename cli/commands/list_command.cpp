@@ -6,9 +6,9 @@
 #include "cli/commands.h"
 #include "cli/help/help.h"
 #include "cli/shipped.h"
-#include "core/text_file.h"
-#include "core/wrapped_text.h"
-#include "core/yaml_reader.h"
+#include "core/text/text_file.h"
+#include "core/text/wrapped_text.h"
+#include "core/text/yaml_reader.h"
 #include "experiment/scenario/robots.h"
 
 namespace umbsim {

@@ -9,7 +9,7 @@
 #include "cli/help/help.h"
 #include "cli/output/pages.h"
 #include "core/error.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "experiment/output/build_info.h"
 #include "experiment/output/recording_page.h"
 #include "experiment/output/result_folder.h"
@@ -53,8 +53,10 @@ std::string subject_of(const fs::path& folder) {
 }
 
 PageKind kind_of(const Json& data) {
-  const std::pair<const char*, PageKind> kinds[] = {{"run", PageKind::run}, {"recording", PageKind::recording},
-                                                    {"sweep", PageKind::sweep}, {"gap", PageKind::gap},
+  const std::pair<const char*, PageKind> kinds[] = {{"run", PageKind::run},
+                                                    {"recording", PageKind::recording},
+                                                    {"sweep", PageKind::sweep},
+                                                    {"gap", PageKind::gap},
                                                     {"explanation", PageKind::explanation}};
   for (const auto& [name, kind] : kinds) {
     if (data["page"] == name) return kind;
@@ -85,13 +87,15 @@ Page page_of(const fs::path& folder) {
   const auto has = [&](const char* name) { return fs::exists(folder / name); };
   const Json provenance = provenance_of(folder);
   if (has("calibration.json"))
-    return {PageKind::calibration, calibration_page(json_of(folder / "calibration.json"), subject_of(folder), provenance)};
+    return {PageKind::calibration,
+            calibration_page(json_of(folder / "calibration.json"), subject_of(folder), provenance)};
   if (has("explain.json")) {
     Page page{PageKind::explanation, explanation_page(json_of(folder / "explain.json"), provenance)};
     if (const auto old = of_old_page(folder)) page.data.update(driven_of(old->data));
     return page;
   }
-  if (has("plan.json")) return {PageKind::plan, plan_page(json_of(folder / "plan.json"), subject_of(folder), provenance)};
+  if (has("plan.json"))
+    return {PageKind::plan, plan_page(json_of(folder / "plan.json"), subject_of(folder), provenance)};
   if (has("prediction.json"))
     return {PageKind::prediction, prediction_page(json_of(folder / "prediction.json"), subject_of(folder), provenance)};
   for (const char* score : {"worlds.json", "confusion.csv"}) {
@@ -108,7 +112,8 @@ Page page_of(const fs::path& folder) {
 }
 
 void report(const ReportArguments& a) {
-  if (!has_pages()) throw InputError("report: this program was built without pages (-DUMBSIM_PAGES=ON builds it with them)");
+  if (!has_pages())
+    throw InputError("report: this program was built without pages (-DUMBSIM_PAGES=ON builds it with them)");
   const fs::path folder = a.folder;
   if (!fs::is_directory(folder)) throw InputError(folder.string() + ": is not a folder");
   const Page page = page_of(folder);
@@ -122,7 +127,8 @@ void report(const ReportArguments& a) {
 void add_report_command(CLI::App& app) {
   const auto a = std::make_shared<ReportArguments>();
   CLI::App* command = app.add_subcommand("report", "Make the page (report.html) of any result or recording again");
-  command->add_option("folder", a->folder, "Folder of a result, or of a recording (real, simulated or imported)")->required();
+  command->add_option("folder", a->folder, "Folder of a result, or of a recording (real, simulated or imported)")
+      ->required();
   add_open_option(command, a->open);
   add_example(command, "umbsim report results/umbmark --open");
   command->callback([a] { report(*a); });

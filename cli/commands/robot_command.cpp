@@ -6,8 +6,8 @@
 #include "cli/commands.h"
 #include "cli/help/help.h"
 #include "cli/output/tables.h"
-#include "core/text_file.h"
-#include "core/wrapped_text.h"
+#include "core/text/text_file.h"
+#include "core/text/wrapped_text.h"
 #include "experiment/robot/understood.h"
 
 namespace umbsim {

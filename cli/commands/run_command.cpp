@@ -12,7 +12,7 @@
 #include "cli/output/pages.h"
 #include "cli/output/tables.h"
 #include "cli/shipped.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "experiment/output/figures.h"
 #include "experiment/output/result_folder.h"
 #include "experiment/output/result_json.h"

@@ -14,7 +14,7 @@
 #include "cli/output/colour.h"
 #include "cli/output/pages.h"
 #include "cli/shipped.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "experiment/output/result_folder.h"
 #include "experiment/output/result_json.h"
 #include "gap/noise/clock.h"

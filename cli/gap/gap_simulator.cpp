@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/sha256.h"
 #include "core/terminal.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "experiment/output/build_info.h"
 
 namespace umbsim {

@@ -8,8 +8,8 @@
 #include "cli/help/help.h"
 #include "cli/output/pages.h"
 #include "cli/shipped.h"
-#include "core/text_file.h"
-#include "core/wrapped_text.h"
+#include "core/text/text_file.h"
+#include "core/text/wrapped_text.h"
 #include "experiment/drive/planned_runs.h"
 #include "experiment/output/build_info.h"
 #include "experiment/output/result_json.h"
@@ -81,8 +81,8 @@ void write_score(const TrialScore& score, const fs::path& folder, const fs::path
   write_folder(folder, true, [&](const fs::path& into) {
     const Json json = score_json(score);
     write_text_file(into / "summary.json", json.dump(1) + "\n");
-    write_page(into, PageKind::score, score_page(json, folder, build_info().version,
-                                                     page_provenance_json(answers.string(), 0)));
+    write_page(into, PageKind::score,
+               score_page(json, folder, build_info().version, page_provenance_json(answers.string(), 0)));
     write_text_file(into / "summary.md", score_markdown(score));
     write_text_file(into / "table.txt", score_table(score));
     write_text_file(into / "confusion.csv", confusion_csv(c));

@@ -7,7 +7,7 @@
 #include <regex>
 #include <sstream>
 
-#include "core/wrapped_text.h"
+#include "core/text/wrapped_text.h"
 
 namespace umbsim {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "cli/help/help.h"
-#include "core/choices.h"
-#include "core/yaml_reader.h"
+#include "core/text/choices.h"
+#include "core/text/yaml_reader.h"
 
 namespace umbsim {
 namespace {

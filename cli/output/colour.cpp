@@ -6,8 +6,8 @@
 #include <array>
 #include <sstream>
 
-#include "core/printable.h"
 #include "core/terminal.h"
+#include "core/text/printable.h"
 
 namespace umbsim {
 namespace {

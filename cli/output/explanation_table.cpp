@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "cli/output/tables.h"
-#include "core/wrapped_text.h"
+#include "core/text/wrapped_text.h"
 
 namespace umbsim {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "core/printable.h"
-#include "core/wrapped_text.h"
+#include "core/text/printable.h"
+#include "core/text/wrapped_text.h"
 #include "gap/noise/clock.h"
 
 namespace umbsim {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "experiment/output/build_info.h"
 #include "experiment/output/result_json.h"
 #include "report/report.h"
@@ -70,7 +70,8 @@ Json index_json(const fs::path& results) {
   std::vector<std::pair<fs::file_time_type, fs::path>> folders;
   for (const auto& item : fs::directory_iterator(results)) {
     const std::string name = item.path().filename();
-    if (item.is_directory() && !item.is_symlink() && name[0] != '.') folders.emplace_back(item.last_write_time(), item.path());
+    if (item.is_directory() && !item.is_symlink() && name[0] != '.')
+      folders.emplace_back(item.last_write_time(), item.path());
   }
   std::sort(folders.rbegin(), folders.rend());
   Json json{{"title", "Results"}, {"version", build_info().version}, {"results", Json::array()}};

@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "cli/output/index_page.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "experiment/output/build_info.h"
 
 extern char** environ;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/output/colour.h"
-#include "core/wrapped_text.h"
+#include "core/text/wrapped_text.h"
 #include "experiment/drive/cable_layer.h"
 #include "experiment/scenario/read_course.h"
 #include "experiment/wheel_loads.h"
@@ -45,7 +45,8 @@ std::string injected_line(const InjectedErrors& injected) {
 
 std::string one_way_table(const ExperimentResult& r) {
   const bool square = r.scenario.course.shape == "square";
-  std::string text = (square ? "One-way square" : "Return errors") + std::string(" (each direction alone)\n") + cluster_header();
+  std::string text =
+      (square ? "One-way square" : "Return errors") + std::string(" (each direction alone)\n") + cluster_header();
   if (!r.cw.errors.empty()) text += cluster_line("cw", r.cw);
   if (!r.ccw.errors.empty()) text += cluster_line("ccw", r.ccw);
   if (square || r.cw.errors.empty() || r.ccw.errors.empty())
@@ -112,8 +113,8 @@ std::string recovery_table(const ExperimentResult& r) {
   if (after_m > 0)
     text += fmt::format("  ({:.3g} times smaller, {} pass{})", before_m / after_m, r.passes.size(),
                         r.passes.size() == 1 ? "" : "es");
-  const double e_d = last.odometry.right_radius_m / last.odometry.left_radius_m * r.odometry.left_radius_m /
-                     r.odometry.right_radius_m;
+  const double e_d =
+      last.odometry.right_radius_m / last.odometry.left_radius_m * r.odometry.left_radius_m / r.odometry.right_radius_m;
   const double e_b = last.odometry.wheelbase_m / r.odometry.wheelbase_m;
   text += fmt::format("\n  recovered E_d {:.6f} ({:+.1e}), E_b {:.6f} ({:+.1e})\n", e_d, e_d - r.injected.e_d, e_b,
                       e_b - r.injected.e_b);
@@ -163,7 +164,8 @@ std::string umbmark_table(const Umbmark& u, std::optional<CalibrationMethod> app
   if (injected) text += injected_line(*injected);
   text += fmt::format("  type A (wheelbase) {:.0f} %, type B (diameters) {:.0f} %\n", 100 * u.type_a_share,
                       100 * u.type_b_share);
-  for (const CalibrationMethod form : forms) text += wrapped(fmt::format("  {}: {}", name(form), when_to_trust(form)), 4);
+  for (const CalibrationMethod form : forms)
+    text += wrapped(fmt::format("  {}: {}", name(form), when_to_trust(form)), 4);
   return text;
 }
 

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 #include "exchange/bag/files/mcap_records.h"
 #include "exchange/bag/files/unpacked_file.h"
 

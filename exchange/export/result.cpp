@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "core/text_file.h"
-#include "core/yaml_reader.h"
+#include "core/text/text_file.h"
+#include "core/text/yaml_reader.h"
 
 namespace umbsim::exchange {
 namespace {
@@ -68,7 +68,8 @@ void noise_from_scatter(const json& umbmark, double side_m, CalibratedOdometry& 
   c.noise_from = "the scatter of the return headings, both wheels alike";
 }
 
-// Where the mean radius cannot be seen it is the nominal one, so that E_d and E_b say the rest (Borenstein & Feng 1995).
+// Where the mean radius cannot be seen it is the nominal one, so that E_d and E_b say the rest (Borenstein & Feng
+// 1995).
 void intervals_from_figures(const json& method, CalibratedOdometry& c) {
   const double mean_m = (c.nominal.left_radius_m + c.nominal.right_radius_m) / 2;
   const double b_m = c.nominal.wheelbase_m;

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "odometry/dead_reckoning.h"
-#include "sim/robot_model.h"
+#include "sim/model/robot_model.h"
 
 namespace umbsim::exchange {
 

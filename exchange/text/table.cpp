@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 
 namespace umbsim::exchange {
 namespace {

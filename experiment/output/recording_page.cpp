@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "experiment/output/build_info.h"
 #include "experiment/output/scene_json.h"
 #include "experiment/scenario/robots.h"
@@ -122,8 +122,11 @@ Json recording_report_json(const fs::path& folder) {
     odometry = initial_odometry(*scenario, load_scenario_robot(*scenario));
   }
   const std::optional<Json> summary = file_json(folder / "summary.json");
-  Json json{{"title", recording.title}, {"description", scenario ? scenario->description : recording.source},
-            {"version", build_info().version}, {"side_m", recording.path.side_m}, {"wheelbase_m", odometry.wheelbase_m}};
+  Json json{{"title", recording.title},
+            {"description", scenario ? scenario->description : recording.source},
+            {"version", build_info().version},
+            {"side_m", recording.path.side_m},
+            {"wheelbase_m", odometry.wheelbase_m}};
   if (scenario) {
     json["scenario"] = scenario->name;
     json["seed"] = scenario->seed;

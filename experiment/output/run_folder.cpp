@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "experiment/output/result_json.h"
 #include "experiment/output/unfinished.h"
 #include "recording/run_writer.h"
@@ -37,12 +37,14 @@ void check_output_folder(const fs::path& given, bool force) {
   if (fs::is_empty(folder, error)) return;
   const bool ours = fs::exists(folder / "provenance.json");
   if (!ours) {
-    throw InputError(fmt::format("{}: exists and is not a result of this program; give another folder with --out",
-                                 folder.string()));
+    throw InputError(
+        fmt::format("{}: exists and is not a result of this program; give another folder with --out", folder.string()));
   }
   if (!force) {
-    throw InputError(fmt::format("{}: already holds a finished result; use --force to replace it, or --out for another "
-                                 "folder", folder.string()));
+    throw InputError(
+        fmt::format("{}: already holds a finished result; use --force to replace it, or --out for another "
+                    "folder",
+                    folder.string()));
   }
 }
 
@@ -90,8 +92,10 @@ void write_folder(const fs::path& given, bool force, const std::function<void(co
     if (error) fail(folder, error);
     fill(part);
     // Unasked only an empty folder is replaced, which rename does by itself, even if one was filled meanwhile.
-    if (force && fs::exists(absolute)) replace_folder(part, absolute, error);
-    else fs::rename(part, absolute, error);
+    if (force && fs::exists(absolute))
+      replace_folder(part, absolute, error);
+    else
+      fs::rename(part, absolute, error);
     if (error) fail(folder, error);
   } catch (const fs::filesystem_error& e) {
     leave_nothing();

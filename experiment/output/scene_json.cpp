@@ -6,8 +6,8 @@
 #include <regex>
 
 #include "core/error.h"
-#include "core/text_file.h"
-#include "sim/mesh_points.h"
+#include "core/text/text_file.h"
+#include "sim/mesh/mesh_points.h"
 
 namespace umbsim {
 namespace {
@@ -70,7 +70,9 @@ std::string base64(const std::string& bytes) {
   constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) { return k < bytes.size() ? unsigned(static_cast<unsigned char>(bytes[k])) : 0U; };
+    const auto byte = [&](std::size_t k) {
+      return k < bytes.size() ? unsigned(static_cast<unsigned char>(bytes[k])) : 0U;
+    };
     const unsigned three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
     for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : kDigits[three >> (18 - 6 * k) & 63];
   }
@@ -123,7 +125,10 @@ Json floor_scene_json(const Floor& floor) {
   Json json{{"friction", floor.friction}, {"slope_rad", floor.slope_rad}, {"downhill_rad", floor.downhill_rad}};
   json["cables"] = Json::array();
   for (const Cable& c : floor.cables) {
-    json["cables"].push_back({{"x_m", c.x_m}, {"y_m", c.y_m}, {"direction_rad", c.direction_rad}, {"height_m", c.height_m},
+    json["cables"].push_back({{"x_m", c.x_m},
+                              {"y_m", c.y_m},
+                              {"direction_rad", c.direction_rad},
+                              {"height_m", c.height_m},
                               {"length_m", c.length_m}});
   }
   json["patches"] = Json::array();

@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "core/wrapped_text.h"
+#include "core/text/wrapped_text.h"
 #include "experiment/scenario/figure_names.h"
 
 namespace umbsim {
@@ -29,8 +29,10 @@ std::vector<Condition> read_where(const YamlValue& value) {
       throw;
     }
   };
-  if (!value.is_list()) read(value);
-  else for (const YamlValue& item : value.list()) read(item);
+  if (!value.is_list())
+    read(value);
+  else
+    for (const YamlValue& item : value.list()) read(item);
   return conditions;
 }
 
@@ -104,8 +106,10 @@ Check check_one(const Expectation& e, const FigureTable& table) {
       const Cell& value = row.cells[figure];
       c.outcomes.push_back({row.number, row.label, value, row.error.empty() && within(e, value)});
     }
-    if (c.outcomes.empty()) c.outcomes.push_back({-1, "no point fulfils the condition", {}, false});
-    else if (e.quantile) c.outcomes = {over_all_points(e, c.outcomes)};
+    if (c.outcomes.empty())
+      c.outcomes.push_back({-1, "no point fulfils the condition", {}, false});
+    else if (e.quantile)
+      c.outcomes = {over_all_points(e, c.outcomes)};
   }
   c.unmet = std::count_if(c.outcomes.begin(), c.outcomes.end(), [](const Outcome& o) { return !o.met; });
   return c;
@@ -159,8 +163,10 @@ std::vector<Expectation> read_expectations(const YamlValue& value, ExpectationsO
     if (std::find(known.begin(), known.end(), figure) == known.end()) {
       bounds.fail("there is no such figure; " + list_choices(figure, known));
     }
-    if (!bounds.is_list()) expectations.push_back(read_one(figure, bounds, whose));
-    else for (const YamlValue& item : bounds.list()) expectations.push_back(read_one(figure, item, whose));
+    if (!bounds.is_list())
+      expectations.push_back(read_one(figure, bounds, whose));
+    else
+      for (const YamlValue& item : bounds.list()) expectations.push_back(read_one(figure, item, whose));
   }
   return expectations;
 }

@@ -5,18 +5,18 @@
 #include <vector>
 
 #include "batch/condition.h"
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 
 namespace umbsim {
 
 /// What a figure must be: of a run, of every point of a sweep, or of a quantile over points.
 struct Expectation {
-  std::string figure;                 ///< a key of summary.json; of a sweep `failed_points`, too
+  std::string figure;  ///< a key of summary.json; of a sweep `failed_points`, too
   std::optional<double> min;
   std::optional<double> max;
   std::optional<double> abs_max;
-  std::optional<double> quantile;     ///< 0 to 1: of all points together, not of each
-  std::vector<Condition> where;       ///< only the points where all hold
+  std::optional<double> quantile;  ///< 0 to 1: of all points together, not of each
+  std::vector<Condition> where;    ///< only the points where all hold
 };
 
 /// Who may have an expectation: of a run there is one point, without axes.

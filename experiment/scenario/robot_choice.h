@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 #include "experiment/scenario/scenario.h"
 
 namespace umbsim {

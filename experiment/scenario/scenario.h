@@ -9,7 +9,7 @@
 #include "experiment/scenario/expect.h"
 #include "odometry/dead_reckoning.h"
 #include "odometry/uncertainty.h"
-#include "sim/suspension.h"
+#include "sim/model/suspension.h"
 #include "sim/world.h"
 #include "umbmark/course.h"
 
@@ -20,8 +20,8 @@ struct RobotChoice {
   DriveJoints joints;
   WheelSize wheel_size;  ///< 0: the URDF's
   SuspensionChoice suspension;
-  double caster_friction = 0;         ///< of fixed balls against the floor
-  double torque_limit_nm = 0;         ///< at each wheel; 0: the URDF's effort limit, else what the tyres can pass on
+  double caster_friction = 0;  ///< of fixed balls against the floor
+  double torque_limit_nm = 0;  ///< at each wheel; 0: the URDF's effort limit, else what the tyres can pass on
 };
 
 /// The odometry's beliefs where they differ from the URDF's nominal dimensions.
@@ -59,10 +59,10 @@ constexpr double kRoughest_m_per_sqrt_m = 0.005;  ///< noise.wheel_noise_m_per_s
 
 /// What differs from run to run. All zero: every run of a direction is the same.
 struct NoiseChoice {
-  double floor_rms_m = 0;           ///< root mean square height of an uneven floor, a new place on it for each run
+  double floor_rms_m = 0;  ///< root mean square height of an uneven floor, a new place on it for each run
   double floor_wavelength_m = 0.3;
-  double radius_scatter = 0;        ///< standard deviation of each wheel's relative radius from run to run
-  double motor_scatter = 0;         ///< the same of each motor's gain: wheel speed over commanded speed
+  double radius_scatter = 0;            ///< standard deviation of each wheel's relative radius from run to run
+  double motor_scatter = 0;             ///< the same of each motor's gain: wheel speed over commanded speed
   double wheel_noise_m_per_sqrt_m = 0;  ///< rough rolling: the variance of a wheel's path is this squared, per metre
 };
 
@@ -73,8 +73,8 @@ struct AbsoluteFix {
 };
 
 struct TruthChoice {
-  std::string kind = "track";       ///< track | endpoints
-  double rate_hz = 10;              ///< track only
+  std::string kind = "track";  ///< track | endpoints
+  double rate_hz = 10;         ///< track only
   double position_sd_m = 0;
   double heading_sd_rad = 0;
 };

@@ -4,11 +4,11 @@
 #include <filesystem>
 
 #include "core/data_folder.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "experiment/scenario/robots.h"
 #include "experiment/scenario/scenario.h"
 #include "recording/names.h"
-#include "sim/urdf_completed.h"
+#include "sim/urdf/completed.h"
 
 namespace umbsim {
 namespace {
@@ -63,8 +63,7 @@ std::vector<std::string> assumed_of_robot(const Scenario& s) {
 OdometryParameters initial_odometry(const Scenario& s, const RobotModel& nominal) {
   return {s.odometry.left_radius_m.value_or(nominal.wheels[0].radius_m),
           s.odometry.right_radius_m.value_or(nominal.wheels[1].radius_m),
-          s.odometry.wheelbase_m.value_or(nominal.wheelbase_m()), s.encoders.ticks_per_revolution,
-          s.odometry.scrub};
+          s.odometry.wheelbase_m.value_or(nominal.wheelbase_m()), s.encoders.ticks_per_revolution, s.odometry.scrub};
 }
 
 }  // namespace umbsim

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 
 namespace umbsim {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "batch/condition.h"
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 
 namespace umbsim {
 
@@ -16,8 +16,8 @@ struct AxisValue {
 
 /// A key of the scenario that a sweep varies.
 struct Axis {
-  std::string key;     ///< effects.wheelbase.relative, course.side_m, seed, robot, ...
-  SourceMark mark;     ///< where its values stand in the sweep file
+  std::string key;                ///< effects.wheelbase.relative, course.side_m, seed, robot, ...
+  SourceMark mark;                ///< where its values stand in the sweep file
   std::vector<AxisValue> values;  ///< listed, or a range with its steps; empty: sampled between from and to
   double from = 0;
   double to = 0;

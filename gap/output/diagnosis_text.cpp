@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/wrapped_text.h"
+#include "core/text/wrapped_text.h"
 #include "gap/output/diagnosis_json.h"
 #include "gap/output/verdict.h"
 

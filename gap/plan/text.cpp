@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/wrapped_text.h"
+#include "core/text/wrapped_text.h"
 #include "gap/plan/json.h"
 
 namespace umbsim::gap {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/wrapped_text.h"
+#include "core/text/wrapped_text.h"
 #include "tests/acceptance/program.h"
 
 namespace umbsim::acceptance {
@@ -15,12 +15,9 @@ struct Shipped {
   bool calibrated;
 };
 
-constexpr Shipped kShipped[] = {{"umbmark", 5, false, true},
-                                {"labmate_exact", 1, false, true},
-                                {"nominal", 1, false, false},
-                                {"extended_umbmark", 5, true, true},
-                                {"unidirectional_trap", 1, false, true},
-                                {"uncertainty", 10, false, false}};
+constexpr Shipped kShipped[] = {
+    {"umbmark", 5, false, true},         {"labmate_exact", 1, false, true},       {"nominal", 1, false, false},
+    {"extended_umbmark", 5, true, true}, {"unidirectional_trap", 1, false, true}, {"uncertainty", 10, false, false}};
 
 /// Courses that are no squares: UMBmark says nothing of them.
 constexpr const char* kOtherCourses[] = {"circle", "figure_eight", "waypoints"};
@@ -73,8 +70,8 @@ TEST_P(ShippedScenario, WritesTheDocumentedFolder) {
 
   const json summary = json_of(folder / "summary.json");
   EXPECT_EQ(summary.at("format"), "umbsim-result/1");
-  std::vector<std::string> paths{"/umbmark/e_max_syst_m", "/injected/e_d", "/injected/e_b", "/cost/simulated_s",
-                                 "/cost/wall_s", "/cost/steps", "/cost/solver_fallbacks"};
+  std::vector<std::string> paths{"/umbmark/e_max_syst_m", "/injected/e_d", "/injected/e_b",         "/cost/simulated_s",
+                                 "/cost/wall_s",          "/cost/steps",   "/cost/solver_fallbacks"};
   for (const std::string direction : {"cw", "ccw"}) {
     for (const std::string key : {"centroid_x_m", "centroid_y_m", "heading_rad", "runs"}) {
       paths.push_back("/umbmark/" + direction + "/" + key);
@@ -88,8 +85,8 @@ TEST_P(ShippedScenario, WritesTheDocumentedFolder) {
     paths.insert(paths.end(), {"/extended/mean_abs_heading_error_rad", "/extended/per_bump_heading_error_rad"});
   }
   if (s.calibrated) {
-    paths.insert(paths.end(), {"/recovery/e_d_error", "/recovery/e_b_error", "/recovery/e_max_after_m",
-                               "/recovery/improvement"});
+    paths.insert(paths.end(),
+                 {"/recovery/e_d_error", "/recovery/e_b_error", "/recovery/e_max_after_m", "/recovery/improvement"});
   }
   expect_numbers(summary, paths);
   EXPECT_EQ(summary.contains("extended"), s.bumped);
@@ -197,7 +194,7 @@ TEST(RunFolder, TrapShowsNothingOneWayAndMuchTheOther) {
   ASSERT_EQ(run.code, 0) << run.err;
   expect_says(run.out, {"the cw square alone would have reported"});
   const json u = json_of(desk.home / "a/summary.json").at("umbmark");
-  constexpr double kLooksPerfect_m = 0.005;   // a tape measure would not see it
+  constexpr double kLooksPerfect_m = 0.005;  // a tape measure would not see it
   constexpr double kIsNot_m = 1;
   EXPECT_LT(u.at("cw").at("r_cg_m"), kLooksPerfect_m);
   EXPECT_GT(u.at("ccw").at("r_cg_m"), kIsNot_m);

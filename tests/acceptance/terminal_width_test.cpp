@@ -1,5 +1,5 @@
 // What every command prints fits a terminal of 80 columns, with long names too.
-#include "core/wrapped_text.h"
+#include "core/text/wrapped_text.h"
 #include "tests/acceptance/program.h"
 
 namespace umbsim::acceptance {

@@ -1,4 +1,4 @@
-#include "core/choices.h"
+#include "core/text/choices.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Rows of recordings: the same bytes as fmt's shortest, of the value to the nearest 1e-9.
-#include "core/decimal.h"
+#include "core/text/decimal.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

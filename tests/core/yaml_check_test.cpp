@@ -1,9 +1,9 @@
-#include "core/yaml_check.h"
+#include "core/text/yaml_check.h"
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 
 namespace umbsim {
 namespace {

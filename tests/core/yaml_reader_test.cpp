@@ -1,4 +1,4 @@
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 
 namespace umbsim {
 namespace {

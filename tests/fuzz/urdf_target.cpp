@@ -1,4 +1,4 @@
-#include "sim/robot_model.h"
+#include "sim/model/robot_model.h"
 #include "tests/fuzz/target.h"
 
 namespace umbsim::fuzz {

@@ -1,5 +1,5 @@
 // The strict YAML reader, and the scenario behind it.
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 #include "experiment/scenario/scenario.h"
 #include "tests/fuzz/target.h"
 

@@ -5,7 +5,7 @@
 
 #include <iostream>
 
-#include "core/wrapped_text.h"
+#include "core/text/wrapped_text.h"
 #include "effects/catalogue.h"
 #include "gap/answer/where.h"
 #include "gap/output/diagnosis_text.h"

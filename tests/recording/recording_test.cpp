@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "core/error.h"
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 #include "folder.h"
 #include "recording/names.h"
 

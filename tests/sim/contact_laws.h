@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "sim/contact_solver.h"
+#include "sim/dynamics/contact_solver.h"
 
 namespace umbsim::testing {
 

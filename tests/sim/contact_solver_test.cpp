@@ -1,5 +1,5 @@
 // The contact solver against the laws themselves, against Bullet's Dantzig solver, and against blocks on a plane.
-#include "sim/contact_solver.h"
+#include "sim/dynamics/contact_solver.h"
 
 #include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The floor near one place against the C library's sines, and its bend against differences of its slope.
-#include "sim/floor_near.h"
+#include "sim/model/floor_near.h"
 
 #include <gtest/gtest.h>
 

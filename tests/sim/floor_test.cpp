@@ -1,5 +1,5 @@
 // The floor's geometry against brute force over the rim angle, closed forms, and finite differences.
-#include "sim/floor.h"
+#include "sim/model/floor.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <vector>
 
-#include "sim/urdf_completed.h"
+#include "sim/urdf/completed.h"
 #include "tests/sim/urdf_text.h"
 
 namespace umbsim {

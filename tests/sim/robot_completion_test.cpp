@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "sim/urdf_completed.h"
+#include "sim/urdf/completed.h"
 #include "tests/sim/urdf_text.h"
 
 namespace umbsim {

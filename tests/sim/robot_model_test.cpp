@@ -1,5 +1,5 @@
 // What load_robot makes of good files. Expected values are worked out here by hand from the numbers in the URDF.
-#include "sim/robot_model.h"
+#include "sim/model/robot_model.h"
 
 #include <gtest/gtest.h>
 

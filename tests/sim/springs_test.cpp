@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "sim/model/suspension.h"
 #include "sim/snapshot.h"
-#include "sim/suspension.h"
 #include "tests/sim/rolling_robot.h"
 
 namespace umbsim {

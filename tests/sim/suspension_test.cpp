@@ -1,5 +1,5 @@
 // Loads of robots on more than three supports, against hand calculation.
-#include "sim/suspension.h"
+#include "sim/model/suspension.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "sim/robot_model.h"
+#include "sim/model/robot_model.h"
 
 namespace umbsim::testing {
 

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "gap/trial/write/answers.h"
 #include "gap/trial/write/seal.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "bench/fidelity/table.h"
-#include "sim/inertia.h"
+#include "sim/model/inertia.h"
 
 namespace umbsim::fidelity {
 namespace {

@@ -5,7 +5,7 @@
 #include "bench/worlds/commands/commands.h"
 #include "bench/worlds/draw/draw.h"
 #include "bench/worlds/draw/worlds_list.h"
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 
 namespace umbsim::worlds {
 namespace {
@@ -53,8 +53,8 @@ void draw(const Arguments& a) {
 
 void add_draw_command(CLI::App& app) {
   const auto a = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("draw", "Draw worlds or the cases of a list, drive them, seal the answers; does what is not done yet");
+  CLI::App* command = app.add_subcommand(
+      "draw", "Draw worlds or the cases of a list, drive them, seal the answers; does what is not done yet");
   command->add_option("worlds", a->file, "Plan of worlds or list of cases (YAML, docs/worlds.md)")->required();
   command->add_option("-o,--out", a->folder, "Folder of the worlds; default results/worlds-<name>");
   command->add_option("--shard", a->shard, "Do only part i of n of the cases: i/n")->capture_default_str();

@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "core/progress.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "gap/trial/write/even_tables.h"
 #include "gap/trial/write/seal.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 #include "recording/names.h"
 #include "recording/yaml_text.h"
 

@@ -9,8 +9,8 @@
 
 #include "bench/worlds/draw/worlds_list_world.h"
 #include "core/sha256.h"
-#include "core/text_file.h"
-#include "core/yaml_reader.h"
+#include "core/text/text_file.h"
+#include "core/text/yaml_reader.h"
 #include "recording/names.h"
 
 namespace umbsim::worlds {

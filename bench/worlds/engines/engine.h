@@ -9,7 +9,7 @@
 
 #include "core/pose2.h"
 #include "core/random.h"
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 #include "effects/catalogue.h"
 #include "effects/rig.h"
 #include "umbmark/course.h"

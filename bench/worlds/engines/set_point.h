@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sim/drivetrain.h"
+#include "sim/model/drivetrain.h"
 
 namespace umbsim::worlds {
 

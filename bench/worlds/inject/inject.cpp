@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "gap/trial/draw/severity.h"
 #include "gap/trial/write/even_tables.h"
 #include "gap/trial/write/seal.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "experiment/replay/replay.h"
 #include "gap/trial/write/seal.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "gap/trial/draw/platform.h"
 #include "gap/trial/write/trial_folder.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "sim/robot_model.h"
+#include "sim/model/robot_model.h"
 
 namespace umbsim::worlds {
 

@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "core/error.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "recording/names.h"
-#include "sim/robot_model.h"
+#include "sim/model/robot_model.h"
 
 namespace umbsim::exchange {
 

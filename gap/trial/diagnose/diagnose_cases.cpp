@@ -12,7 +12,7 @@
 
 #include "core/error.h"
 #include "core/progress.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "gap/trial/write/seal.h"
 
 namespace umbsim {
@@ -48,7 +48,7 @@ Finished run_process(const DiagnoseOptions& options, const fs::path& scratch, co
   Finished finished;
   try {
     bp::child child(options.program.string(), bp::args(words), environment, bp::start_dir(scratch.string()),
-                    bp::std_in < bp::null, bp::std_out > bp::null, bp::std_err > messages.string());
+                    bp::std_in<bp::null, bp::std_out> bp::null, bp::std_err > messages.string());
     child.wait();
     finished.exit_code = child.exit_code();
   } catch (const bp::process_error& e) {
@@ -70,8 +70,11 @@ void diagnose_case(const TrialFolder& folder, const DiagnoseOptions& options, co
   normalise_times(scratch.path() / "recording");
   const Finished finished = run_process(options, scratch.path(), cache, entry.excluded, threads);
   const bool ok = finished.exit_code == 0 && fs::exists(scratch.path() / "diagnosis" / "diagnosis.json");
-  Json json{{"format", "umbsim-trial-process/1"}, {"exit_code", finished.exit_code}, {"wall_s", finished.wall_s},
-            {"failed", !ok}, {"answers_sha256", seal ? Json(*seal) : Json()}};
+  Json json{{"format", "umbsim-trial-process/1"},
+            {"exit_code", finished.exit_code},
+            {"wall_s", finished.wall_s},
+            {"failed", !ok},
+            {"answers_sha256", seal ? Json(*seal) : Json()}};
   if (!ok) {
     const std::string& m = finished.messages;
     json["messages"] = m.substr(m.size() - std::min(m.size(), kKeptMessageBytes));
@@ -81,8 +84,7 @@ void diagnose_case(const TrialFolder& folder, const DiagnoseOptions& options, co
       const fs::path from = scratch.path() / "diagnosis" / name;
       if (ok && fs::exists(from)) fs::copy_file(from, into / name);
     }
-    write_text_file(into / "process.json",
-                    json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    write_text_file(into / "process.json", json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   });
 }
 

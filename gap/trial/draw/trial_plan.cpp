@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <set>
 
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 #include "recording/names.h"
 #include "recording/yaml_text.h"
 
@@ -204,8 +204,8 @@ std::string resolved_trial(const TrialPlan& p) {
   text += fmt::format(
       "noise:\n  heading_walk_rad_per_sqrt_m: {}\n  radius_scatter: {}\n  motor_scatter: {}\n"
       "  position_sd_m: {}\n  heading_sd_rad: {}\n",
-      yaml_number(n.heading_walk_rad_per_sqrt_m, ""), yaml_number(n.radius_scatter, ""), yaml_number(n.motor_scatter, ""),
-      yaml_number(n.position_sd_m, ""), yaml_number(n.heading_sd_rad, ""));
+      yaml_number(n.heading_walk_rad_per_sqrt_m, ""), yaml_number(n.radius_scatter, ""),
+      yaml_number(n.motor_scatter, ""), yaml_number(n.position_sd_m, ""), yaml_number(n.heading_sd_rad, ""));
   add("level", n.level);
   text += "runs:\n";
   for (const PlannedRun& run : p.runs) text += text_of(run);

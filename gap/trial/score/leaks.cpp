@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "core/random.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 
 namespace umbsim {
 namespace {

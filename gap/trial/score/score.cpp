@@ -4,7 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/error.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "gap/trial/write/seal.h"
 
 namespace umbsim {
@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 void check_process_seal(const Json& process, const std::string& hash, const fs::path& file) {
   const auto then = process.find("answers_sha256");
   if (then == process.end() || !then->is_string() || *then == hash) return;
-  throw InputError(fmt::format("{}: was diagnosed when other answers were sealed ({})", file.string(),
-                               then->get<std::string>()));
+  throw InputError(
+      fmt::format("{}: was diagnosed when other answers were sealed ({})", file.string(), then->get<std::string>()));
 }
 
 Verdict verdict_of(const TrialFolder& folder, const std::string& name, const Answer& answer, const std::string& hash) {
@@ -50,9 +50,7 @@ std::vector<std::string> umbmark_of(const TrialFolder& folder, const std::vector
 }
 
 // Tiers with fewer runs or poses have smaller files for a reason that is no secret.
-bool whole_set(const Verdict& v) {
-  return v.answer.tier != Tier::end_points && v.answer.tier != Tier::poor_runs;
-}
+bool whole_set(const Verdict& v) { return v.answer.tier != Tier::end_points && v.answer.tier != Tier::poor_runs; }
 
 LeakFigure metadata_of(const TrialFolder& folder, const std::vector<Verdict>& verdicts) {
   std::vector<const Verdict*> cases;

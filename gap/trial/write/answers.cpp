@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/yaml_reader.h"
+#include "core/text/yaml_reader.h"
 
 namespace umbsim {
 
@@ -23,8 +23,10 @@ TrueEffect read_effect(const YamlValue& value) {
   YamlMap map(value);
   TrueEffect effect;
   for (const auto& [key, parameter] : map.entries()) {
-    if (key == "run") effect.run = parameter.string();
-    else effect.parameters[key] = parameter.number();
+    if (key == "run")
+      effect.run = parameter.string();
+    else
+      effect.parameters[key] = parameter.number();
   }
   return effect;
 }
@@ -37,8 +39,7 @@ bool in_catalogue(const std::string& effect) {
 Tier tier_of(const Answer& answer) {
   if (answer.effects.empty()) return Tier::no_effect;
   for (const auto& [effect, values] : answer.effects) {
-    const bool excluded =
-        std::find(answer.excluded.begin(), answer.excluded.end(), effect) != answer.excluded.end();
+    const bool excluded = std::find(answer.excluded.begin(), answer.excluded.end(), effect) != answer.excluded.end();
     if (excluded || !in_catalogue(effect)) return Tier::outside;
   }
   return answer.effects.size() == 1 ? Tier::single : Tier::pairs;
@@ -93,7 +94,9 @@ std::optional<double> Answer::severity() const {
 }
 
 Json answer_json(const TrialCase& drawn, const std::vector<ScaledEffect>& effects) {
-  Json json{{"tier", name(drawn.tier)}, {"effects", Json::object()}, {"excluded", drawn.excluded},
+  Json json{{"tier", name(drawn.tier)},
+            {"effects", Json::object()},
+            {"excluded", drawn.excluded},
             {"severities", Json::object()}};
   bool undetectable = !effects.empty();
   for (const ScaledEffect& e : effects) {

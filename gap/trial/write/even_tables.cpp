@@ -3,7 +3,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 
 namespace umbsim {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "core/progress.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 #include "gap/trial/write/even_tables.h"
 #include "gap/trial/write/seal.h"
 
@@ -78,8 +78,7 @@ DrivenCase drive_case(const TrialPlan& plan, const TrialCase& c, const Platform&
   drive.motor_scatter = plan.noise.motor_scatter * c.noise_level;
   for (std::size_t i = 0; i < c.effects.size(); ++i) {
     const DrawnEffect drawn = draw_effect(*c.effects[i], platform, runs_of(plan, c.tier), random);
-    driven.effects.push_back(
-        scale_effect(drawn, c.severities[i], plan.severity, c.noise_level, scales.of(c), random));
+    driven.effects.push_back(scale_effect(drawn, c.severities[i], plan.severity, c.noise_level, scales.of(c), random));
     drive.effects.push_back(driven.effects.back().effect);
   }
   driven.recording = simulator(drive);
@@ -111,8 +110,8 @@ void write_case(const TrialFolder& folder, const TrialCase& c, const DrivenCase&
 std::optional<std::string> seal_if_complete(const TrialPlan& plan, const TrialFolder& folder,
                                             const std::vector<TrialCase>& cases) {
   if (!fs::exists(folder.seal())) {
-    Json json{{"format", "umbsim-trial-answers/1"}, {"trial", plan.name}, {"seed", plan.seed},
-              {"cases", Json::object()}};
+    Json json{
+        {"format", "umbsim-trial-answers/1"}, {"trial", plan.name}, {"seed", plan.seed}, {"cases", Json::object()}};
     for (const TrialCase& c : cases) {
       const fs::path part = folder.answer_parts() / (c.name + ".json");
       if (!fs::exists(folder.recordings() / c.name) || !fs::exists(part)) return read_seal(folder);
@@ -140,8 +139,8 @@ void begin(const TrialPlan& plan, const TrialFolder& folder, const std::vector<T
       throw InputError(fmt::format("{}: holds another trial; give another folder with --out", folder.root.string()));
     }
   } else if (!holds_nothing(folder.root)) {
-    throw InputError(fmt::format("{}: exists and is not a trial; give another folder with --out",
-                                 folder.root.string()));
+    throw InputError(
+        fmt::format("{}: exists and is not a trial; give another folder with --out", folder.root.string()));
   }
   write_file_whole(folder.plan(), text);
   std::vector<CaseEntry> entries;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/text_file.h"
+#include "core/text/text_file.h"
 
 namespace umbsim {
 namespace {
@@ -35,8 +35,10 @@ bool check_seal(const fs::path& answers, const std::optional<std::string>& seale
   const std::string hash = sha256(read_text_file(answers, kMaxAnswerBytes));
   if (!sealed_hash) return false;
   if (hash != *sealed_hash) {
-    throw InputError(fmt::format("{}: its SHA-256 is {}, but {} was sealed before the diagnoses: the answers were "
-                                 "changed, or belong to another trial", answers.string(), hash, *sealed_hash));
+    throw InputError(
+        fmt::format("{}: its SHA-256 is {}, but {} was sealed before the diagnoses: the answers were "
+                    "changed, or belong to another trial",
+                    answers.string(), hash, *sealed_hash));
   }
   return true;
 }

@@ -4,7 +4,7 @@
 
 #include "odometry/dead_reckoning.h"
 #include "recording/names.h"
-#include "sim/robot_model.h"
+#include "sim/model/robot_model.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;

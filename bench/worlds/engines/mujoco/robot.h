@@ -7,7 +7,7 @@
 
 #include "bench/worlds/engines/mujoco/model_xml.h"
 #include "bench/worlds/engines/set_point.h"
-#include "sim/push.h"
+#include "sim/model/push.h"
 
 typedef struct mjModel_ mjModel;
 typedef struct mjData_ mjData;

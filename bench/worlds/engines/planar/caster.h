@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "bench/worlds/engines/planar/tyre.h"
-#include "sim/robot_model.h"
+#include "sim/model/robot_model.h"
 
 namespace umbsim::worlds::planar {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/worlds/engines/set_point.h"
-#include "sim/drivetrain.h"
+#include "sim/model/drivetrain.h"
 
 namespace umbsim::worlds::planar {
 

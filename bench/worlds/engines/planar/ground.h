@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "sim/floor.h"
+#include "sim/model/floor.h"
 
 namespace umbsim::worlds::planar {
 
