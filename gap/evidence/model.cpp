@@ -126,6 +126,9 @@ void Model::observe() {
   for (const std::size_t r : all_runs()) counts.push_back(counts_sd(r, false));
   nuisances_ = make_nuisances(nominal_, filters_, scatter_, drive, noise_floor_m_, kFeatureRows, counts);
   products_of_nuisances_ = products_of_nuisances();
+  const Evidence seen = evidence(grams(residuals(without_effects_), {}), all_runs(), first_columns(nuisances()),
+                                 nuisances_.shared_sds.front());
+  settle_trackers(nuisances_, scatter_, seen.mean);
 }
 
 std::string Model::condition(std::size_t run) const {

@@ -112,8 +112,9 @@ class Model {
   double wheel_width_m() const { return simulator_.wheel_width_m; }
   double mass_kg() const { return simulator_.mass_kg; }
   int nuisances() const { return int(nuisance_sd().size()); }
-  /// Of another engine's recording, and what else it may be (Nuisances).
-  const Eigen::VectorXd& nuisance_sd() const { return nuisances_.shared_sds.front(); }
+  /// Of another engine's recording, as long as nothing is known of its tracker.
+  const Eigen::VectorXd& nuisance_sd() const { return nuisances_.usual_sd; }
+  /// What it may be (Nuisances).
   const std::vector<Eigen::VectorXd>& nuisance_sds() const { return nuisances_.shared_sds; }
   const Eigen::VectorXd& unexplained_sd() const { return nuisances_.unexplained_sd; }
   /// What other engines make of a run: track errors, as many as nuisances(), and how large each is.

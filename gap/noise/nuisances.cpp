@@ -157,9 +157,13 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   const Layout layout(nominal);
   const RunGroups& groups = layout.groups;
   Nuisances n;
-  n.shared_sds = {shared_sd(layout, scatter)};
+  n.usual_sd = shared_sd(layout, scatter);
+  n.shared_sds = {n.usual_sd};
   if (std::any_of(layout.trackers.begin(), layout.trackers.end(), may_be_exact))
     n.shared_sds.push_back(with_exact_trackers(n.shared_sds.front(), layout, scatter));
+  for (std::size_t t = 0; t < layout.trackers.size(); ++t) {
+    if (may_be_exact(layout.trackers[t])) n.markers.push_back(layout.tracker(t));
+  }
   n.of_another = n.shared_sds.size();
   n.engine_sd = Eigen::VectorXd::Zero(layout.size());
   n.engine_sd.head(layout.tracker(0)) = n.shared_sds.front().head(layout.tracker(0));
@@ -204,6 +208,21 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
     n.own.push_back(whitened(filters[r], own_columns(nominal, filters[r], r), more_rows));
   }
   return n;
+}
+
+void settle_trackers(Nuisances& n, const Scatter& s, const Eigen::VectorXd& mean) {
+  const auto log_density = [](double x, double sd) { return -0.5 * x * x / (sd * sd) - std::log(sd); };
+  double exact = 0;  // log odds
+  for (const Eigen::Index marker : n.markers) {
+    for (const double at_m : mean.segment(marker, 2))
+      exact += log_density(at_m, s.exact_marker_m) - log_density(at_m, s.marker_m);
+  }
+  if (exact <= 0) return;
+  // Each mounted by hand stands before its exact one.
+  std::vector<Eigen::VectorXd> left;
+  for (std::size_t i = 1; i < n.shared_sds.size(); i += 2) left.push_back(std::move(n.shared_sds[i]));
+  n.shared_sds = std::move(left);
+  n.of_another = 1;
 }
 
 }  // namespace umbsim::gap

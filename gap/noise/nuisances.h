@@ -44,12 +44,13 @@ Scatter between_engines(Scatter scatter);
 /// Columns that are fitted always and credited to nobody. Per run, whitened; outer index: run.
 struct Nuisances {
   /// First `of_another`, if another engine, or a robot, made the recording: with a tracker that was mounted by hand
-  /// and, where its header does not speak against it, with an exact one. A heading that is off the drive axis looks
-  /// like toe, and a point that is off the axle tells the two apart. Then, if this engine made it, which runs show by
-  /// how little they stray.
+  /// and, where its header does not speak against it, with an exact one. Then, if this engine made it, which runs show
+  /// by how little they stray.
   std::vector<Eigen::VectorXd> shared_sds;
   std::size_t of_another = 0;
-  Eigen::VectorXd unexplained_sd;       ///< of the same numbers, if errors of no particular cause stood behind them
+  Eigen::VectorXd usual_sd;           ///< the first of these
+  std::vector<Eigen::Index> markers;  ///< of trackers that may be exact: first of two numbers, the point that each sees
+  Eigen::VectorXd unexplained_sd;     ///< of the same numbers, if errors of no particular cause stood behind them
   std::vector<Eigen::MatrixXd> shared;  ///< one number for all runs that it acts in
   std::vector<Eigen::MatrixXd> tracks;  ///< the same as track errors, not whitened
   Eigen::VectorXd engine_sd;            ///< of what engines differ by; 0 of the trackers' numbers
@@ -73,5 +74,10 @@ using CountsSd = Eigen::Vector3d;
 /// and the lag of counts in the first three of these. `counts`: of each run.
 Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFilter>& filters, const Scatter& scatter,
                          const Drive& drive, double floor_m, int more_rows, const std::vector<CountsSd>& counts);
+
+/// Leaves trackers that are exact alone, if the points that they see lie in the axle's middle: a heading that is off
+/// the drive axis looks like toe, and its point tells how a tracker was mounted, whatever else moves the robot. `mean`:
+/// of all shared numbers, fitted with trackers mounted by hand.
+void settle_trackers(Nuisances& nuisances, const Scatter& scatter, const Eigen::VectorXd& mean);
 
 }  // namespace umbsim::gap

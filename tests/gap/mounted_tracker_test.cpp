@@ -39,6 +39,18 @@ TEST(MountedTracker, IsNoToe) {
   EXPECT_EQ(first_of(Subject(mounted(campaign(unequal, 52), kByHand)).diagnosed()), "wheel_radius_difference");
 }
 
+// Whatever else moves the robot: its point goes round in turns in place.
+TEST(MountedTracker, ItsPointTellsHowItWasMounted) {
+  const std::vector<Effect> toed{effect("wheel_misalignment", {{"right_toe_rad", 0.006}})};
+  const std::vector<Effect> wide{effect("wheelbase", {{"relative", 0.01}}),
+                                 effect("carpet_drift", {{"metres_per_metre", 0.01}})};
+  for (const std::vector<Effect>& effects : {std::vector<Effect>{}, toed, wide}) {
+    const Recording recording = campaign(effects, 55);
+    EXPECT_EQ(Subject(recording).model.nuisance_sds().size(), 2u) << "exact: another engine's, or this one's";
+    EXPECT_EQ(Subject(mounted(recording, kByHand)).model.nuisance_sds().size(), 4u) << "or mounted by hand";
+  }
+}
+
 TEST(MountedTracker, ToeIsFoundByAnExactOne) {
   const std::vector<Effect> toed{effect("wheel_misalignment", {{"right_toe_rad", 0.006}})};
   EXPECT_EQ(first_of(Subject(campaign(toed, 53)).diagnosed()), "wheel_misalignment");
