@@ -93,7 +93,7 @@ void fill_set(const Context& w, const Found& found, const LeftUnexplained& left,
     if (!best.hypotheses.empty() && w.explained_by(best) > std::max(left.steady, kWorthKnowing * left.lack))
       add_what_explains(best, w.none, d);
     add_what_counts_show(w.model, w.none, w.thresholds, d);
-    if (w.may_name("uneven_floor") && may_be_uneven_floor(w.model, w.none)) d.set.push_back("uneven_floor");
+    if (w.may_name(kUnevenFloor) && may_be_uneven_floor(w.model, w.none)) d.set.push_back(kUnevenFloor);
   }
   add_doubtful(found.doubtful, w.none, d);
   add_faint(found.p_values, w.thresholds, d);

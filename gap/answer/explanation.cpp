@@ -43,7 +43,7 @@ void put_first(const Fit& fit, double leftover, Diagnosis& d) {
 
 // An effect that is found, but not fitted, in place of what would be unknown. Whether there is one.
 bool named_without_fit(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis& d) {
-  if (w.may_name("uneven_floor")) {
+  if (w.may_name(kUnevenFloor)) {
     if (const auto uneven = with_uneven_floor(w.model, w.none, best, left.lack, w.thresholds)) {
       if (uneven->hypotheses.size() == 1) add_nothing(d.closure);
       best = *uneven;
@@ -121,7 +121,7 @@ bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
     return false;
   }
   // What comes again wherever runs pass the same places is the floor's.
-  return !w.may_name("uneven_floor") || !may_be_uneven_floor(w.model, w.none);
+  return !w.may_name(kUnevenFloor) || !may_be_uneven_floor(w.model, w.none);
 }
 
 // The fit of what rolls, of what counts show, or of a place or moment that is all that is found, and closes a gap.

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "gap/answer/closure.h"
-#include "gap/answer/where.h"
 #include "gap/evidence/track_misfit.h"
 
 namespace umbsim::gap {
@@ -91,7 +90,7 @@ Remainder remainder_of(const Model& model, const Screen& screen, const Fit& none
   if (!d.unexplained || std::any_of(hypotheses.begin(), hypotheses.end(), unfitted)) return rest;
   const std::vector<Screen::Candidate> more = screen.on_top_of(d.explanation);
   if (more.empty() || more.front().gain <= 0) return rest;
-  rest.pattern = pattern_of(more.front().hypothesis.effect);
+  rest.pattern = traits_of(more.front().hypothesis.effect).pattern;
   rest.in_catalogue = more.front().gain > 0.5 * leftover;
   return rest;
 }

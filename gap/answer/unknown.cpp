@@ -40,7 +40,7 @@ double late_left(const Model& model, const Fit& fit, const Thresholds& t) {
 // As a share of what is explained. A cable shakes each engine's robot in its own way; where a push, a patch or a hole
 // is named the rest of what happened there is its doing, too.
 double sudden_that_may_be_left(const Fit& fit, const Thresholds& t) {
-  const auto cable = [](const Hypothesis& f) { return f.effect == "bump"; };
+  const auto cable = [](const Hypothesis& f) { return is(f.effect, kCable); };
   const bool shakes = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(), cable);
   return fit.is_local() && !shakes ? t.sudden_beside_local : t.sudden_or_late_left;
 }
@@ -55,8 +55,8 @@ LeftUnexplained left_unexplained(const Model& model, const Fit& fit, const Thres
 }
 
 double may_be_left(const Fit& fit, double explained, bool beside_contacts, const Thresholds& t) {
-  const auto toe = [](const Hypothesis& f) { return f.effect == "wheel_misalignment"; };
-  const bool toed = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(), toe);
+  const auto scrubs = [](const Hypothesis& f) { return is(f.effect, kScrubs); };
+  const bool toed = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(), scrubs);
   // Of what is left and explained together a share of s is left where s / (1 - s) of the explained is.
   const auto beside = [&](double known_share) { return (1 - known_share) / known_share * std::max(0.0, explained); };
   const double left = beside(toed ? t.known_share_of_toe : t.known_share);
@@ -69,7 +69,7 @@ double enough_to_detect(const std::vector<std::string>& effects, const Threshold
   // A contact's width does what a wheelbase does, and engines differ in turns by no more for the one than for the
   // other.
   const auto same_for_all_engines = [](const std::string& e) {
-    return is_kinematic(e) || is_commanded_motion(e) || e == "contact_patch";
+    return is_kinematic(e) || is_commanded_motion(e) || is(e, kLikeADimension);
   };
   return std::all_of(effects.begin(), effects.end(), same_for_all_engines) ? t.detect_rolling : t.detect;
 }

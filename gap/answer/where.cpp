@@ -88,43 +88,6 @@ std::vector<SegmentScore> segment_scores(const Model& model, const Fit& fit) {
   return all;
 }
 
-}  // namespace
-
-std::string pattern_of(const std::string& effect) {
-  static const std::map<std::string, std::string> patterns = {{"wheel_radius_scale", "legs"},
-                                                              {"wheel_radius_difference", "legs"},
-                                                              {"wheelbase", "turns"},
-                                                              {"wheel_misalignment", "legs"},
-                                                              {"wheel_eccentricity", "wheel_angle"},
-                                                              {"load_shift", "load"},
-                                                              {"wear", "runs"},
-                                                              {"backlash", "reversals"},
-                                                              {"motor_response", "commands"},
-                                                              {"over_acceleration", "leg_start"},
-                                                              {"fast_turning", "turns"},
-                                                              {"encoder_resolution", "legs"},
-                                                              {"encoder_sampling", "turns"},
-                                                              {"encoder_missed_counts", "legs"},
-                                                              {"encoder_latency", "speed"},
-                                                              {"tyre_compliance", "load"},
-                                                              {"contact_patch", "turns"},
-                                                              {"tyre_creep", "leg_start"},
-                                                              {"caster_swivel", "leg_start"},
-                                                              {"caster_drag", "legs"},
-                                                              {"slippery_floor", "turns"},
-                                                              {"slippery_patch", "place"},
-                                                              {"bump", "place"},
-                                                              {"uneven_floor", "place"},
-                                                              {"floor_slope", "world_direction"},
-                                                              {"carpet_drift", "world_direction"},
-                                                              {"push", "one_run"},
-                                                              {"wheel_lift", "place"}};
-  const auto found = patterns.find(effect);
-  return found == patterns.end() ? "" : found->second;
-}
-
-namespace {
-
 std::string in_words(const std::string& part) {
   if (part == "cruise") return "along the legs";
   return part == "turn" ? "in the turns" : "at the legs' " + part + "s";
@@ -188,7 +151,7 @@ std::string wheel_at(const Model& model, double x_m, double y_m) {
 // Of a cable or a patch, or where the robot was when it was pushed.
 void find_place(const Model& model, const Fit& fit, Diagnosis& d) {
   for (const Effect& e : fit.effects()) {
-    const std::string pattern = pattern_of(e.info->name);
+    const std::string pattern = traits_of(e.info->name).pattern;
     if (pattern == "place") {
       for (std::size_t i = 0; i < e.info->parameters.size(); ++i) {
         if (e.info->parameters[i].name == "x_m") {
@@ -223,7 +186,7 @@ void say_where(const Model& model, const Fit& none, const Fit& best, Diagnosis& 
   if (!d.detected || best.hypotheses.empty()) return;
   // The effect that explains most names the stage.
   d.stage = name(find_effect(best.hypotheses.front().effect).stage);
-  d.pattern = pattern_of(best.hypotheses.front().effect);
+  d.pattern = traits_of(best.hypotheses.front().effect).pattern;
   find_place(model, best, d);
   if (d.has_place) d.place_wheel = wheel_at(model, d.place_m[0], d.place_m[1]);
 }

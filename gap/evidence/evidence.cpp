@@ -60,6 +60,12 @@ Evidence evidence(const std::vector<RunGram>& grams, const std::vector<std::size
   return e;
 }
 
+Eigen::VectorXd after_nuisances(int nuisances, const Eigen::VectorXd& p) {
+  Eigen::VectorXd shift = Eigen::VectorXd::Zero(nuisances + p.size());
+  shift.tail(p.size()) = p;
+  return shift;
+}
+
 std::vector<int> first_columns(Eigen::Index n) {
   std::vector<int> columns;
   for (int i = 1; i <= int(n); ++i) columns.push_back(i);

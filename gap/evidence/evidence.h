@@ -33,6 +33,9 @@ Evidence evidence(const std::vector<RunGram>& grams, const std::vector<std::size
                   const std::vector<int>& columns, const std::vector<Eigen::VectorXd>& prior_sds,
                   const Eigen::VectorXd& shift = {});
 
+/// Numbers `p` at which derivatives were taken, as a shift of the linear model's parameters: behind the nuisances.
+Eigen::VectorXd after_nuisances(int nuisances, const Eigen::VectorXd& p);
+
 /// Indices of the first `n` columns of a gram, the residual not counted.
 std::vector<int> first_columns(Eigen::Index n);
 

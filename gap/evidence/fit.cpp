@@ -1,158 +1,45 @@
-// Fitting the numbers of effects in the simulator, and what a fit is worth.
-#include <Eigen/LU>
+// Fits, and fitting the numbers of effects in the simulator.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <stdexcept>
 
 #include "gap/evidence/model.h"
-#include "gap/noise/lost_by_chance.h"
 
 namespace umbsim::gap {
-namespace {
 
-constexpr int kRoundsAgain = 2;
+std::vector<Effect> Fit::effects() const { return effects_at(p); }
 
-// The derivatives are taken at the fitted numbers: as a shift of the linear model's parameters.
-Eigen::VectorXd shifted(int nuisances, const Eigen::VectorXd& p) {
-  Eigen::VectorXd shift = Eigen::VectorXd::Zero(nuisances + p.size());
-  shift.tail(p.size()) = p;
-  return shift;
-}
-
-}  // namespace
-
-// Whatever else makes the noise, it is not less than what chance makes.
-double Model::log_chance(const std::vector<Effect>& effects) const {
-  const NoiseModel chance = lost_by_chance(nominal_, effects);
-  double sum = 0;
-  for (const NoiseEstimate& estimate : noises_) {
-    if (!estimate.log_likelihood) continue;
-    NoiseModel noise = estimate.noise;
-    noise.heading_rad2_pm = std::max(noise.heading_rad2_pm, chance.heading_rad2_pm);
-    noise.along_m2_pm = std::max(noise.along_m2_pm, chance.along_m2_pm);
-    const bool less =
-        noise.heading_rad2_pm <= estimate.noise.heading_rad2_pm && noise.along_m2_pm <= estimate.noise.along_m2_pm;
-    if (!less) sum += std::min(0.0, estimate.log_likelihood(noise) - estimate.log_likelihood(estimate.noise));
-  }
-  return sum;
-}
-
-double Model::log_evidence(const Fit& fit, const std::vector<std::size_t>& runs) const {
-  const Eigen::VectorXd shift = shifted(nuisances(), fit.p);
-  const Eigen::VectorXd s = prior_sd_of(fit.hypotheses);
-  const Evidence e = evidence(fit.grams, runs, first_columns(shift.size()), with_more(nuisance_sds(), s), shift);
-  double cost = -fit.log_chance;
-  for (const Hypothesis& f : fit.hypotheses) cost += f.search_cost + f.variant_cost;
-  if (!fit.linear) {
-    // The simulator bends: the density where the descent ended, and the width that the derivatives give there.
-    double log_density = evidence(fit.grams, runs, first_columns(nuisances()), nuisance_sds()).log_density;
-    const Eigen::MatrixXd width = e.covariance.bottomRightCorner(s.size(), s.size());
-    log_density += 0.5 * std::log(std::max(1e-300, width.determinant())) - s.array().log().sum();
-    return log_density - 0.5 * fit.p.cwiseQuotient(s).squaredNorm() - cost;
-  }
-  double log_density = e.log_density - cost;
-  // A number that cannot be negative has half a normal for its prior.
-  Eigen::Index i = nuisances();
-  for (const FreeParameter& p : free_parameters(fit.hypotheses)) {
-    if (p.min >= 0) log_density += log_normal_cdf(e.mean[i] / std::sqrt(e.covariance(i, i))) + std::log(2.0);
-    ++i;
-  }
-  return log_density;
-}
-
-Eigen::VectorXd Model::numbers_on(const Fit& fit, const std::vector<std::size_t>& runs) const {
-  const Eigen::VectorXd shift = shifted(nuisances(), fit.p);
-  const Eigen::VectorXd s = prior_sd_of(fit.hypotheses);
-  const Evidence e = evidence(fit.grams, runs, first_columns(shift.size()), with_more(nuisance_sds(), s), shift);
-  Fit other = fit;
-  other.p = e.mean.tail(fit.p.size());
-  Eigen::Index i = 0;
-  bool all_told = true;
-  for (const FreeParameter& p : free_parameters(fit.hypotheses)) {
-    // What happened in one run alone no other run can tell: the number stays as it is.
-    const double sd_left = std::sqrt(e.covariance(nuisances() + i, nuisances() + i));
-    const bool told = sd_left < 0.8 * p.prior_sd;
-    if (!told) other.p[i] = fit.p[i];
-    all_told = all_told && told;
-    other.p[i] = std::clamp(other.p[i], p.min, p.max);
-    ++i;
-  }
-  if (fit.linear || !all_told) return other.p;
-  // Where the simulator bends the derivatives may point off the hill: the better of both starts.
-  const auto density = [&](const Eigen::VectorXd& p) {
-    try {
-      return density_at(fit.hypotheses, p, runs);
-    } catch (const std::runtime_error&) {
-      return -1e300;  // it cannot be driven so
-    }
-  };
-  const bool astray = density(fit.p) > density(other.p);
-  return this->fit(fit.hypotheses, astray ? fit.p : other.p, kRoundsAgain, runs).p;
-}
-
-Fit Model::without(const Fit& whole, std::size_t out) const {
-  std::vector<Hypothesis> hypotheses;
-  std::vector<double> start;
+std::vector<Effect> Fit::effects_at(const Eigen::VectorXd& numbers, std::size_t without) const {
+  std::vector<Effect> all;
   Eigen::Index at = 0;
-  for (std::size_t i = 0; i < whole.hypotheses.size(); ++i) {
-    const Eigen::Index n = Eigen::Index(whole.hypotheses[i].parameters.size());
-    if (i != out) {
-      hypotheses.push_back(whole.hypotheses[i]);
-      start.insert(start.end(), whole.p.data() + at, whole.p.data() + at + n);
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    const Eigen::Index n = Eigen::Index(hypotheses[i].parameters.size());
+    if (i != without) {
+      for (Effect& e : effects_of(hypotheses[i], numbers.segment(at, n))) all.push_back(std::move(e));
     }
     at += n;
   }
-  return fit(hypotheses, Eigen::Map<Eigen::VectorXd>(start.data(), Eigen::Index(start.size())));
+  return all;
 }
 
-void Model::score(Fit& fit) const {
-  const std::vector<std::size_t> all = all_runs();
-  fit.log_evidence = log_evidence(fit, all);
-  fit.held_out = 0;
-  std::set<std::string> conditions;
-  for (std::size_t r : all) conditions.insert(condition(r));
-  for (const std::string& c : conditions) {
-    std::vector<std::size_t> rest;
-    for (std::size_t r : all) {
-      if (condition(r) != c) rest.push_back(r);
-    }
-    if (!rest.empty()) fit.held_out += fit.log_evidence - log_evidence(fit, rest);
-  }
+std::string Fit::name() const {
+  std::set<std::string> names;
+  for (const Hypothesis& f : hypotheses) names.insert(f.effect);
+  if (names.empty()) return "none";
+  return fmt::format("{}", fmt::join(names, "+"));
 }
 
-Fit Model::none() const {
-  Fit fit;
-  fit.p.resize(0);
-  fit.covariance.resize(0, 0);
-  fit.predicted = without_effects_;
-  fit.grams = grams(residuals(without_effects_), {});
-  const Evidence e = evidence(fit.grams, all_runs(), first_columns(nuisances()), nuisance_sds());
-  fit.residual = e.residual;
-  fit.misfit = e.misfit;
-  fit.nuisance = e.mean;
-  fit.prior = e.prior;
-  score(fit);
-  return fit;
+bool Fit::is_kinematic() const {
+  return std::all_of(hypotheses.begin(), hypotheses.end(),
+                     [](const Hypothesis& f) { return gap::is_kinematic(f.effect); });
 }
 
-Fit Model::held(Fit fit) const {
-  const Evidence e =
-      evidence(grams(residuals(fit.predicted), {}), all_runs(), first_columns(nuisances()), nuisance_sds());
-  fit.nuisance = e.mean;
-  fit.prior = e.prior;
-  return fit;
-}
-
-double Model::density_at(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& p,
-                         const std::vector<std::size_t>& some) const {
-  Fit fit;
-  fit.hypotheses = hypotheses;
-  fit.p = p;
-  const std::vector<std::size_t> runs = some.empty() ? all_runs() : some;
-  const Predicted predicted = predict({fit.effects()}, runs).front();
-  return evidence(grams(residuals(predicted), {}), runs, first_columns(nuisances()), nuisance_sds()).log_density +
-         log_chance(fit.effects());
+bool Fit::is_local() const {
+  return std::any_of(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& f) { return f.search_cost > 0; });
 }
 
 // Derivatives at the fit's numbers, by a step in every direction.
@@ -206,6 +93,21 @@ int rounds_of(const std::vector<Hypothesis>& hypotheses, int rounds) {
 
 }  // namespace
 
+Fit Model::without(const Fit& whole, std::size_t out) const {
+  std::vector<Hypothesis> hypotheses;
+  std::vector<double> start;
+  Eigen::Index at = 0;
+  for (std::size_t i = 0; i < whole.hypotheses.size(); ++i) {
+    const Eigen::Index n = Eigen::Index(whole.hypotheses[i].parameters.size());
+    if (i != out) {
+      hypotheses.push_back(whole.hypotheses[i]);
+      start.insert(start.end(), whole.p.data() + at, whole.p.data() + at + n);
+    }
+    at += n;
+  }
+  return fit(hypotheses, Eigen::Map<Eigen::VectorXd>(start.data(), Eigen::Index(start.size())));
+}
+
 // Gauss-Newton on the density, with steps back where the simulator bends. Derivatives are taken where the descent
 // begins, if none are given, and where it ends, if steps did not go where they pointed.
 Fit Model::fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& start, int rounds,
@@ -227,7 +129,8 @@ Fit Model::fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd&
   const auto solved = [&](Fit& at) {
     at.columns = d.known->columns;
     at.grams = grams(residuals(at.predicted), at.columns);
-    const Evidence e = evidence(at.grams, runs, first_columns(nuisances() + m), sds, shifted(nuisances(), at.p));
+    const Evidence e =
+        evidence(at.grams, runs, first_columns(nuisances() + m), sds, after_nuisances(nuisances(), at.p));
     at.covariance = e.covariance.bottomRightCorner(m, m);
     return next_numbers(at, e.mean.tail(m), free, d);
   };

@@ -1,7 +1,5 @@
 #include "gap/evidence/model.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Cholesky>
@@ -23,37 +21,6 @@ bool acts_on_counts(const std::vector<Effect>& effects) {
 }
 
 }  // namespace
-
-std::vector<Effect> Fit::effects() const { return effects_at(p); }
-
-std::vector<Effect> Fit::effects_at(const Eigen::VectorXd& numbers, std::size_t without) const {
-  std::vector<Effect> all;
-  Eigen::Index at = 0;
-  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-    const Eigen::Index n = Eigen::Index(hypotheses[i].parameters.size());
-    if (i != without) {
-      for (Effect& e : effects_of(hypotheses[i], numbers.segment(at, n))) all.push_back(std::move(e));
-    }
-    at += n;
-  }
-  return all;
-}
-
-std::string Fit::name() const {
-  std::set<std::string> names;
-  for (const Hypothesis& f : hypotheses) names.insert(f.effect);
-  if (names.empty()) return "none";
-  return fmt::format("{}", fmt::join(names, "+"));
-}
-
-bool Fit::is_kinematic() const {
-  return std::all_of(hypotheses.begin(), hypotheses.end(),
-                     [](const Hypothesis& f) { return gap::is_kinematic(f.effect); });
-}
-
-bool Fit::is_local() const {
-  return std::any_of(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& f) { return f.search_cost > 0; });
-}
 
 Model::Model(const Campaign& campaign, Simulator simulator, const Scatter& scatter,
              const std::optional<NoiseModel>& known)
@@ -91,21 +58,6 @@ Model::Model(const Campaign& campaign, Simulator simulator, const Scatter& scatt
   for (std::size_t r = 0; r < all.runs.size(); ++r) of_runs.push_back(noise(r));
   noise_floor_m_ = gap::noise_floor_m(nominal_, of_runs);
   observe();
-}
-
-double Model::another_engine(const Fit& fit) const {
-  if (!engine_is_open()) return 0;
-  const auto density = [&](auto from, auto to) {
-    return evidence(fit.grams, all_runs(), first_columns(nuisances()), std::vector<Eigen::VectorXd>(from, to))
-        .log_density;
-  };
-  const auto begin = nuisance_sds().begin(), same = begin + std::ptrdiff_t(nuisances_.of_another);
-  return density(begin, same) - density(same, nuisance_sds().end());
-}
-
-bool Model::surely_another_engines(const Fit& fit) const {
-  constexpr double kSurely = 30;  // log evidence; right fits of this engine's runs have up to 18
-  return another_engine(fit) >= kSurely;
 }
 
 void Model::take_for_another_engines() {

@@ -211,13 +211,13 @@ std::optional<UnevenFloorFound> find_uneven_floor(const Model& model, const Fit&
 }
 
 Fit on_uneven_floor(Fit fit, const UnevenFloorFound& floor) {
-  const EffectInfo& info = find_effect("uneven_floor");
+  const EffectInfo& info = find_effect(kUnevenFloor);
   const EffectValues base = neutral_effect(info).values;
   const std::size_t rms = index_of(info, "rms_m");
   const std::size_t wavelength = index_of(info, "wavelength_m");
   const auto logarithm = [](const char* name) { return FreeParameter{name, 0, 0.1, 3, -14, 3}; };
   Hypothesis hypothesis{
-      "uneven_floor", "roughness", {logarithm("log rms_m"), logarithm("log wavelength_m")}, {}, {}, false, 0};
+      kUnevenFloor, "roughness", {logarithm("log rms_m"), logarithm("log wavelength_m")}, {}, {}, false, 0};
   hypothesis.shape_unknown = true;
   hypothesis.values = [=](const Eigen::VectorXd& p) {
     EffectValues values = base;

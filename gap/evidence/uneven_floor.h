@@ -6,6 +6,9 @@
 
 namespace umbsim::gap {
 
+/// The effect of the catalogue.
+inline constexpr const char* kUnevenFloor = "uneven_floor";
+
 /// An uneven floor found in what a fit leaves. A robot on a slope stands off the place where its wheels touch, by the
 /// axle's height times the slope; so the floor shifts it by the same vector whenever it passes, whichever way it goes.
 struct UnevenFloorFound {

@@ -33,10 +33,6 @@ Hypothesis from_start(Hypothesis hypothesis, double start) {
 
 }  // namespace
 
-bool shows_in_counts(const EffectInfo& info) {
-  return info.stage == Stage::drivetrain || info.stage == Stage::encoder || is_commanded_motion(info.name);
-}
-
 Eigen::VectorXd start_of(const Hypothesis& hypothesis) {
   Eigen::VectorXd p(Eigen::Index(hypothesis.parameters.size()));
   for (Eigen::Index i = 0; i < p.size(); ++i) p[i] = hypothesis.parameters[std::size_t(i)].start;
@@ -54,27 +50,6 @@ Eigen::VectorXd prior_sd_of(const std::vector<Hypothesis>& hypotheses) {
   Eigen::VectorXd sd(Eigen::Index(free.size()));
   for (Eigen::Index i = 0; i < sd.size(); ++i) sd[i] = free[std::size_t(i)].prior_sd;
   return sd;
-}
-
-bool is_kinematic(const std::string& effect) {
-  static const std::set<std::string> effects{
-      "wheel_radius_scale", "wheel_radius_difference", "wheelbase",       "tyre_compliance", "wear",
-      "encoder_sampling",   "encoder_missed_counts",   "encoder_latency", "motor_response"};
-  return effects.count(effect) > 0;
-}
-
-bool is_contact(const std::string& effect) {
-  const EffectInfo& info = find_effect(effect);
-  const bool of_contact = info.stage == Stage::contact || info.stage == Stage::floor;
-  return of_contact && !is_kinematic(effect) && !shows_in_counts(info);
-}
-
-bool is_dimension(const std::string& effect) {
-  return effect == "wheel_radius_scale" || effect == "wheel_radius_difference" || effect == "wheelbase";
-}
-
-bool is_commanded_motion(const std::string& effect) {
-  return effect == "over_acceleration" || effect == "fast_turning";
 }
 
 Effect effect_of(const Hypothesis& hypothesis, const Eigen::VectorXd& p) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "effects/catalogue.h"
+#include "gap/traits/traits.h"
 
 namespace umbsim::gap {
 
@@ -45,24 +46,6 @@ Eigen::VectorXd start_of(const Hypothesis& hypothesis);
 /// The free numbers of all hypotheses in order, and their prior standard deviations.
 std::vector<FreeParameter> free_parameters(const std::vector<Hypothesis>& hypotheses);
 Eigen::VectorXd prior_sd_of(const std::vector<Hypothesis>& hypotheses);
-
-/// Whether counts against commands, or how the robot was driven and read, show the effect; others only move the robot.
-bool shows_in_counts(const EffectInfo& info);
-
-/// Whether the effect is one of the three dimensions that every calibration is about: mean radius, ratio of radii,
-/// wheelbase.
-bool is_dimension(const std::string& effect);
-
-/// Whether the effect is what was asked of the robot, beyond the course.
-bool is_commanded_motion(const std::string& effect);
-
-/// Whether the effect follows from rolling, counting and driving alone, without a contact that slips, scrubs or climbs:
-/// another engine's robot, or a real one, shows it as ours does.
-bool is_kinematic(const std::string& effect);
-
-/// Whether it acts at a contact or on the floor, and is neither kinematic nor seen in the counts: what an engine's
-/// contacts make of it is its own.
-bool is_contact(const std::string& effect);
 
 /// Every hypothesis of the catalogue that needs no search for a place or moment.
 /// `period_s` and `ticks_per_revolution`: of the recording's encoders. `wheel_width_m`: no contact is wider; 0: not

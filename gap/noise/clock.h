@@ -32,8 +32,8 @@ ClocksAligned with_clocks_aligned(Recording recording);
 /// Moments between two end points, so that a run can be followed through; the poses there stand for nothing.
 Recording with_moments_between(Recording recording);
 
-/// What a diagnosis or a plan follows through: with moments between end points, and with a real tracker's clock set to the
-/// encoders', which `limits` then says.
+/// What a diagnosis or a plan follows through: with moments between end points, and with a real tracker's clock set to
+/// the encoders', which `limits` then says.
 Recording followed_through(const Recording& given, std::vector<std::string>& limits);
 
 }  // namespace umbsim::gap

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gap/traits/traits.h"
+
 namespace umbsim::gap {
 namespace {
 
@@ -29,7 +31,7 @@ NoiseModel lost_by_chance(const NominalReplay& nominal, const std::vector<Effect
   NoiseModel noise;
   noise.heading_rad2_pm = noise.along_m2_pm = 0;
   for (const Effect& effect : effects) {
-    if (effect.info->name != "encoder_missed_counts") continue;
+    if (!is(effect.info->name, kByChance)) continue;
     const EncoderSpec encoders = apply_effects({effect}, Rig{}).encoders;
     const RecordedRobot& robot = nominal.recording->robot;
     const double count_m = 2 * M_PI * robot.wheel_radius_m / robot.ticks_per_revolution;

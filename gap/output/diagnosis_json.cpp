@@ -14,7 +14,8 @@ using Json = nlohmann::ordered_json;
 constexpr int kParameterDraws = 2000;
 // What a replay is off by that no residual shows, standard deviations, from development trials (docs/gap.md).
 constexpr double kReplayShare = 0.03;  // of a size, against its neutral value
-constexpr double kScrubShare = 0.08;   // of toe: the floor's roughness, which lets the wheels slip, is known to a fifth
+constexpr double kScrubShare =
+    0.08;  // of what scrubs: the floor's roughness, which lets the wheels slip, is known to a fifth
 constexpr double kReplayAngle_rad = 0.01;
 constexpr double kReplayPlace_m = 0.005;
 constexpr double kReplayMoment_s = 0.01;
@@ -28,7 +29,7 @@ double replay_sd(const std::string& effect, const EffectParameter& p, double val
   if (p.name == "x_m" || p.name == "y_m") return kReplayPlace_m;
   if (p.name == "leg") return 0;
   if (p.name == "seconds_into_leg") return kReplayMoment_s;
-  return (effect == "wheel_misalignment" ? kScrubShare : kReplayShare) * std::abs(value - neutral);
+  return (is(effect, kScrubs) ? kScrubShare : kReplayShare) * std::abs(value - neutral);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ bool acts_when_small(const std::string& parameter) {
 
 PlannedHypothesis planned(Hypothesis hypothesis) {
   PlannedHypothesis p;
-  p.by_run_number = hypothesis.effect == "wear";
+  p.by_run_number = is(hypothesis.effect, kByRun);
   // Softness of the tyres goes with a toe, it is not what is asked about.
   p.happens = !hypothesis.with;
   if (const EffectParameter* strength = parameter_of(hypothesis)) {
@@ -88,7 +88,7 @@ std::vector<PlannedHypothesis> planned_hypotheses(const Model& model, const std:
 std::vector<std::string> without_hypothesis(const std::set<std::string>& wanted) {
   std::set<std::string> missing = wanted;
   for (const Hypothesis& f : plain_hypotheses(0.02, 2000)) missing.erase(f.effect);
-  for (const char* local : {"bump", "wheel_lift", "slippery_patch", "push"}) missing.erase(local);
+  std::erase_if(missing, [](const std::string& effect) { return is(effect, kOfAPlace); });
   return {missing.begin(), missing.end()};
 }
 

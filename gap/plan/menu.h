@@ -9,9 +9,9 @@ namespace umbsim::gap {
 
 /// One run that an experimenter may be asked to drive.
 struct MenuRun {
-  std::string label;             ///< in words, with its direction
-  RecordedRun run;               ///< header without data
-  double dwell_s = 0;            ///< standstill after every leg and turn
+  std::string label;   ///< in words, with its direction
+  RecordedRun run;     ///< header without data
+  double dwell_s = 0;  ///< standstill after every leg and turn
   double angular_speed_radps = 0;
 };
 

@@ -47,9 +47,9 @@ struct Recommendation {
 };
 
 struct Plan {
-  Separation given;                    ///< of the runs that are asked about
-  Recommendation from_nothing;         ///< the shortest set of runs of the menu
-  Recommendation further;              ///< runs of the menu on top of those that are asked about
+  Separation given;                        ///< of the runs that are asked about
+  Recommendation from_nothing;             ///< the shortest set of runs of the menu
+  Recommendation further;                  ///< runs of the menu on top of those that are asked about
   std::vector<std::string> no_hypothesis;  ///< effects that the diagnosis cannot name
   std::vector<std::pair<std::string, double>>
       weak;  ///< effects that no plausible size brings to the severity, with theirs

@@ -14,6 +14,9 @@
 namespace umbsim::gap {
 namespace {
 
+constexpr double kFarthest = 2;   // times the size at which a bending effect was simulated
+constexpr double kEnough = 0.25;  // share of a truth's squared size that another effect must be able to have
+
 // A hypothesis's evidence for data that come as X' C^-1 y, prepared once (gap/evidence/evidence.h, with the nuisances
 // inside C).
 class Racer {
@@ -209,13 +212,6 @@ double expected_lead(const Eigen::MatrixXd& information, const std::vector<Signa
   }
   return least;
 }
-
-namespace {
-
-constexpr double kFarthest = 2;   // times the size at which a bending effect was simulated
-constexpr double kEnough = 0.25;  // share of a truth's squared size that another effect must be able to have
-
-}  // namespace
 
 FixedTruth nearest(const Eigen::MatrixXd& information, const std::vector<Signature>& signatures,
                    const FixedTruth& truth, const std::string& effect) {

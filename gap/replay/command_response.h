@@ -10,10 +10,10 @@ namespace umbsim::gap {
 /// Counts against commands of one run: what the drivetrain and the encoders make of what was asked.
 struct CommandResponse {
   bool known = false;
-  double left_gain = 0;   ///< counted over commanded rotation, minus 1
+  double left_gain = 0;  ///< counted over commanded rotation, minus 1
   double right_gain = 0;
-  double lag_s = 0;       ///< of the counts behind the commands
-  double gain_sd = 0;     ///< of the gains, from the width of the encoder's steps
+  double lag_s = 0;    ///< of the counts behind the commands
+  double gain_sd = 0;  ///< of the gains, from the width of the encoder's steps
 };
 
 /// `counts_rad`: angles (left, right) at the encoder samples of a run with commands. `step_rad`: between

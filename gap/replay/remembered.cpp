@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/recent.h"
+#include "gap/traits/traits.h"
 
 namespace umbsim::gap {
 namespace {
@@ -26,8 +27,7 @@ double number(const Effect& effect, const char* name) {
 // Whether a run can feel an effect. Cables reach across the floor, so only discs are looked at.
 bool felt(const RecordedRun& run, double wheelbase_m, bool tracked, const Effect& effect) {
   if (effect.info->one_run && !effect.values.run.empty()) return effect.values.run == run.id;
-  const std::string& name = effect.info->name;
-  if (!tracked || (name != "slippery_patch" && name != "wheel_lift")) return true;
+  if (!tracked || !is(effect.info->name, kDisc)) return true;
   const double reach_m = number(effect, "radius_m") + number(effect, "length_m") + wheelbase_m + kBeside_m;
   for (const TruthSample& s : run.truth) {
     if (std::hypot(s.X_WB.x_m - number(effect, "x_m"), s.X_WB.y_m - number(effect, "y_m")) < reach_m) return true;

@@ -1,7 +1,6 @@
 #include "gap/search/addition.h"
 
 #include <algorithm>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -21,42 +20,9 @@ constexpr double kPlain = 2.5;         // times what counts must show
 // be another tyre's.
 constexpr double kScrubShare = 0.03;
 
-// What an error of one effect's model looks like: a further effect of that kind must bring this share of what the fit
-// brought.
-struct Lookalikes {
-  std::set<std::string> of;
-  std::set<std::string> effects;
-  double share;
-};
-
-const std::vector<Lookalikes>& lookalikes() {
-  static const std::vector<Lookalikes> all{
-      // Coarse or rare counts are undone as well as can be. What is left are jumps of the shafts' speed, which look
-      // like late counts or like wheels that slip under them.
-      {{"encoder_resolution", "encoder_sampling"},
-       {"slippery_floor", "tyre_creep", "encoder_latency", "backlash"},
-       0.1},
-      // How a place or a push shakes the tyres, and the play behind them, differs between engines.
-      {{"push", "bump", "wheel_lift", "slippery_patch"},
-       {"backlash", "encoder_latency", "tyre_creep", "slippery_floor"},
-       0.01},
-      // A play's ends are stops that each engine makes in its own way.
-      {{"backlash"}, {"tyre_creep", "slippery_floor", "push", "wheel_lift", "slippery_patch"}, 0.01},
-      // Eccentric wheels heave the robot and shift its load: when tyres let go in turns differs between engines.
-      {{"wheel_eccentricity"}, {"slippery_patch", "wheel_lift", "slippery_floor", "tyre_creep"}, 0.05},
-      // Toed wheels scrub: how tyres give way to it, and the yaw that it takes, differ between tyres.
-      {{"wheel_misalignment"}, {"slippery_floor", "tyre_creep", "wheel_radius_difference", "wear"}, 0.25},
-      // Counts that get lost look like another radius, and so does what chance takes from them.
-      {{"encoder_missed_counts"}, {"wheel_radius_difference", "wheel_radius_scale", "wear"}, 0.02},
-      // How far a wheel slides once it has let go differs as well.
-      {{"slippery_floor"}, {"tyre_creep", "backlash", "encoder_latency", "caster_swivel", "caster_drag"}, 0.25},
-  };
-  return all;
-}
-
-std::ptrdiff_t of_these(const Fit& fit, const std::set<std::string>& effects) {
+std::ptrdiff_t that_look(const Fit& fit, unsigned looks) {
   return std::count_if(fit.hypotheses.begin(), fit.hypotheses.end(),
-                       [&](const Hypothesis& f) { return effects.count(f.effect) > 0; });
+                       [&](const Hypothesis& f) { return (traits_of(f.effect).looks & looks) != 0; });
 }
 
 double share_that_may_err(const Fit& base, const Thresholds& t) {
@@ -98,9 +64,9 @@ bool contradicted(const Model& model, const Fit& base, const Fit& fit) {
 
 double lookalike_share(const Fit& base, const Fit& fit) {
   double share = 0;
-  for (const Lookalikes& l : lookalikes()) {
-    const bool more = of_these(fit, l.effects) > of_these(base, l.effects);
-    if (of_these(base, l.of) > 0 && more) share = std::max(share, l.share);
+  for (const Hypothesis& f : base.hypotheses) {
+    const Traits& errs = traits_of(f.effect);
+    if (that_look(fit, errs.error_looks) > that_look(base, errs.error_looks)) share = std::max(share, errs.error_share);
   }
   return share;
 }

@@ -1,52 +1,31 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "core/error.h"
 #include "gap/evidence/drivable.h"
-#include "gap/evidence/impulsive_residuals.h"
-#include "gap/hypotheses/local_starts.h"
 #include "gap/search/local_search.h"
 #include "gap/search/search.h"
 
 namespace umbsim::gap {
 namespace {
 
-constexpr double kLeastImpulse = 10;  // log evidence below which a place or a moment would not pay
-constexpr int kPastTheHill = 4;       // tries one after another that are each worse than the one before
+constexpr int kPastTheHill = 4;  // tries one after another that are each worse than the one before
 constexpr double kTryCost = 3;  // log of how many frictions are tried, and for the width of what is held where it shows
 
 // Effects on how the robot is driven and read are tried where counts or commands show them.
-bool shown_by_command_features(const std::string& effect, const CommandFeatures& h) {
-  if (effect == "encoder_sampling") return h[3] > 0;
-  if (effect == "encoder_resolution") return h[4] < -0.1;
-  return true;
+bool may_show(const std::string& effect, const CommandFeatures& features) {
+  const ShownBy& shown = traits_of(effect).shown;
+  if (shown.feature < 0) return true;
+  const double at = features[std::size_t(shown.feature)];
+  return shown.above < at && at < shown.below;
 }
 
-// Where the fit of such an effect begins: at what counts or commands show. NaN: not such an effect.
-double shown_start(const std::string& effect, const CommandFeatures& h) {
-  if (effect == "over_acceleration") return h[0];
-  if (effect == "fast_turning") return h[2];
-  if (effect == "encoder_sampling") return h[3];
-  if (effect == "encoder_resolution") return h[4];
-  return std::nan("");
-}
-
-// What is seen at places and at moments, as strong as the strongest of `others` at most.
-void no_stronger_than(const Impulses& others, Impulses& impulses) {
-  const double place = others.places.empty() ? 0 : others.places.front().gain;
-  const double moment = others.moments.empty() ? 0 : others.moments.front().gain;
-  for (PlaceImpulse& p : impulses.places) p.gain = std::min(p.gain, place);
-  for (Impulse& m : impulses.moments) m.gain = std::min(m.gain, moment);
-}
-
-// The leg that a moment belongs to, and the seconds since its start; before the first leg: leg 0.
-std::pair<int, double> leg_at(const std::vector<Stretch>& stretches, double time_s) {
-  std::pair<int, double> leg{0, 0};
-  for (const Stretch& s : stretches) {
-    if (s.kind == Stretch::Kind::leg && s.start_s <= time_s) leg = {s.leg, time_s - s.start_s};
-  }
-  return leg;
+// Where the fit of such an effect begins: at what counts or commands show.
+std::optional<double> shown_start(const std::string& effect, const CommandFeatures& features) {
+  const int feature = traits_of(effect).shown.feature;
+  return feature < 0 ? std::nullopt : std::optional(features[std::size_t(feature)]);
 }
 
 }  // namespace
@@ -55,10 +34,11 @@ Screen::Screen(const Model& model, const std::set<std::string>& excluded) : mode
   const Recording& recording = model.recording();
   for (const Hypothesis& f :
        plain_hypotheses(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution, model.wheel_width_m())) {
-    if (excluded.count(f.effect) > 0 || !shown_by_command_features(f.effect, model.command_features())) continue;
+    if (excluded.count(f.effect) > 0 || !may_show(f.effect, model.command_features())) continue;
     hypotheses_.push_back(f);
     // Samples that are rarer by a little already lag by up to a period: a longer interval says little of these.
-    if (f.effect == "encoder_sampling") hypotheses_.back().parameters[0].step = model.command_features()[3];
+    if (is(f.effect, kFromWhatShows))
+      hypotheses_.back().parameters[0].step = *shown_start(f.effect, model.command_features());
   }
   try {
     simulate_steps();
@@ -121,52 +101,6 @@ void Screen::try_frictions(const Fit& fit, Candidate& c) const {
 void Screen::try_start(const Fit& fit, Candidate& c) const {
   const double before = model_.density_at(fit.hypotheses, fit.p);
   c.gain = std::max(c.gain, density_on(model_, fit, c.hypothesis)(c.start) - before - kTryCost);
-}
-
-// Places and moments where something happened that `fit` leaves.
-void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) const {
-  Impulses impulses = find_impulses(model_, fit);
-  if (another_) no_stronger_than(find_impulses(*another_, another_->held(fit)), impulses);
-  const double R = model_.recording().robot.wheel_radius_m;
-  // Two local events at once are not looked for: the second would mend the first one's shape.
-  if (fit.is_local()) return;
-  const auto offer = [&](Hypothesis hypothesis, const Starts& starts, const std::vector<double>& reach,
-                         int local_searches, double gain, const std::vector<std::size_t>& shown_by = {}) {
-    if (excluded_.count(hypothesis.effect) > 0) return;
-    Candidate c;
-    c.hypothesis = std::move(hypothesis);
-    c.start = starts.front();
-    c.starts = starts;
-    c.reach = Eigen::Map<const Eigen::VectorXd>(reach.data(), Eigen::Index(reach.size()));
-    c.local_searches = local_searches;
-    // Where grip is missing the best start says little of the top of its hill.
-    c.any_start = c.hypothesis.effect == "slippery_patch";
-    c.gain = gain - c.hypothesis.search_cost;
-    c.shown_by = shown_by;
-    candidates.push_back(std::move(c));
-  };
-  for (std::size_t i = 0; i < std::min<std::size_t>(impulses.places.size(), 2); ++i) {
-    const PlaceImpulse& k = impulses.places[i];
-    if (k.gain < kLeastImpulse) break;
-    if (k.lost_m > 0) {
-      offer(bump_hypothesis(k.x_m, k.y_m, k.heading_rad), cable_starts(k.lost_m, R), {0.002, 0.02}, 2, k.gain,
-            k.shown_by);
-    }
-    const bool closely = i == 0 && fit.hypotheses.empty();
-    offer(lift_hypothesis(k.x_m, k.y_m), lift_starts(closely), {0.005, 0.01, 0.01}, closely ? 5 : 3, k.gain - 1,
-          k.shown_by);
-    const double grips = model_.slips_at() > 0 ? model_.slips_at() : 0.05;
-    offer(patch_hypothesis(k.x_m, k.y_m), patch_starts(grips, closely), {0.02 * grips, 0.04, 0.04, 0.04},
-          closely ? 3 : 1, k.gain - 2, k.shown_by);
-  }
-  if (impulses.moments.empty() || impulses.moments.front().gain < kLeastImpulse) return;
-  const Impulse& k = impulses.moments.front();
-  const RecordedRun& run = model_.recording().runs[k.run];
-  const auto [leg, seconds] = leg_at(model_.stretches(k.run), run.truth[k.sample].time_s);
-  if (leg == 0) return;
-  const double kg = model_.mass_kg();
-  offer(push_hypothesis(run.id, leg, std::max(0.0, std::round(seconds * 10 - 1) / 10), kg), push_starts(kg),
-        {0.05 * kg, 0.05}, 2, k.gain);
 }
 
 std::optional<Linearisation> Screen::near(const Fit& fit, const Hypothesis& hypothesis) const {
@@ -238,11 +172,11 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
       }
     }
     if (possible) c.p_value = chi_squared_tail(misfit_without[e.prior] - e.misfit, count);
-    if (const double shown = shown_start(c.hypothesis.effect, model_.command_features()); !std::isnan(shown)) {
-      c.start[0] = std::clamp(shown, c.hypothesis.parameters[0].min, c.hypothesis.parameters[0].max);
+    if (const auto shown = shown_start(c.hypothesis.effect, model_.command_features())) {
+      c.start[0] = std::clamp(*shown, c.hypothesis.parameters[0].min, c.hypothesis.parameters[0].max);
       try_start(fit, c);
     }
-    if (hypotheses_[f].effect == "slippery_floor") try_frictions(fit, c);
+    if (is(c.hypothesis.effect, kThreshold)) try_frictions(fit, c);
     c.gain += model_.log_chance({effect_of(c.hypothesis, c.start)});
     candidates.push_back(std::move(c));
   }

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "gap/noise/noise_floor.h"
-#include "gap/search/addition.h"
+#include "gap/search/forward_search.h"
 #include "gap/search/frontier.h"
 #include "gap/search/local_search.h"
 
@@ -17,11 +17,8 @@ constexpr std::size_t kAdditionsFitted = 5;
 constexpr std::size_t kFewAdditions = 2;  // to runs that are searched again
 constexpr std::size_t kLocalSearches = 3;
 constexpr int kRounds = 7;
-constexpr int kFewerRounds = 4;  // what is there already has been fitted
-constexpr std::size_t kSwapsFitted = 2;
-constexpr int kSwaps = 2;
+constexpr int kFewerRounds = 4;         // what is there already has been fitted
 constexpr double kAnotherVariant = 3;   // log evidence by which a second hypothesis of one effect may promise less
-constexpr double kRivals = 0.8;         // share of an effect's gain that the screen must see in another in its place
 constexpr double kLocalHint = 0.25;     // of what explains all, below which no place or moment is searched for
 constexpr double kWorthASearch = 0.1;   // of what the best single effect explains, the same of the best start
 constexpr double kPartOfNeeded = 0.25;  // of what a further effect must bring, the same of its best start
@@ -29,271 +26,194 @@ constexpr double kDoubtful = 0.3;       // of what a further effect must bring
 constexpr double kScreening = 0.2;      // of the time of single effects
 constexpr double kAdding = 0.75;        // of a stage's time that further effects take; the rest are exchanges
 
-// Forward from single effects, with a look back at what the first one should have been.
-class Search {
- public:
-  Search(const Model& model, Screen& screen, const Thresholds& thresholds, const ProgressCallback& progress)
-      : model_(model),
-        screen_(screen),
-        thresholds_(thresholds),
-        progress_(progress),
-        none_(model.none()),
-        fits_{none_} {}
-
-  Found run() {
-    begin("fitting single effects");
-    fit_singles();
-    if (model_.tracker_is_free()) fit_dimensions();
-    std::vector<Fit> frontier(fits_.begin() + 1, fits_.end());
-    for (int depth = 2; depth <= thresholds_.most_effects; ++depth) {
-      const std::vector<Fit> from = bases(model_, none_, std::move(frontier), thresholds_);
-      if (from.empty() || from.front().log_evidence < none_.log_evidence + thresholds_.detect) break;
-      begin(depth == 2 ? "fitting pairs of effects" : "fitting combinations of three");
-      if (follow_best(from.front(), frontier)) continue;
-      for (std::size_t i = 0; i < from.size(); ++i) {
-        add_to(from[i], kAdditionsFitted, {kAdding * double(i) / double(from.size()), kAdding / double(from.size())},
-               frontier);
-      }
-      if (frontier.empty()) break;
-      done(kAdding);
-      swap(frontier);
-    }
-    return {std::move(fits_), std::move(doubtful_), std::move(p_values_)};
-  }
-
- private:
-  /// From which share of a stage on, and how much of it.
-  struct Part {
-    double from;
-    double size;
-  };
-
-  void begin(const std::string& stage) {
-    stage_ = stage;
-    done(0);
-  }
-  void done(double share) const { progress_(stage_, share); }
-
-  std::optional<Fit> tried(const Fit& base, const Screen::Candidate& c, double least) {
-    std::vector<Hypothesis> hypotheses = base.hypotheses;
-    hypotheses.push_back(c.hypothesis);
-    try {
-      const std::optional<Eigen::VectorXd> from = searched_start(model_, base, c, least);
-      if (!from) return std::nullopt;
-      Eigen::VectorXd start(base.p.size() + from->size());
-      start << base.p, *from;
-      Fit fit = model_.fit(hypotheses, start, base.hypotheses.empty() ? kRounds : kFewerRounds, {},
-                           screen_.near(base, c.hypothesis));
-      // A place may have been fitted so that it makes up for what is only now beside it. What takes part in the contact
-      // would mend how another engine's robot is shaken there.
-      if (base.is_local() && is_kinematic(c.hypothesis.effect) && c.gain > thresholds_.addition) {
-        fit = with_place_searched_again(model_, fit);
-      }
-      fit.size = displacement_m(fit.predicted.tracks, base.predicted.tracks) / model_.noise_floor_m();
-      fit.seen = std::sqrt(seen_between(model_, base, fit) / model_.rows());
-      if (contradicted(model_, base, fit)) return std::nullopt;
-      if (large_enough(base, fit)) return fit;
-      keep_doubtful(base, addition_needed(model_, base, none_, thresholds_), std::move(fit));
-    } catch (const RunError&) {
-      // A robot that cannot be simulated is no explanation,
-    } catch (const InputError&) {
-      // nor is one that does not stand at its start, on a cable or without a wheel's floor.
-    }
-    return std::nullopt;
-  }
-
-  void keep_doubtful(const Fit& base, const Needed& needed, Fit fit) {
-    if (base.hypotheses.empty() || pays(model_, base, fit, needed, kDoubtful)) doubtful_.push_back(std::move(fit));
-  }
-
-  bool large_enough(const Fit& base, const Fit& fit) const {
-    // Beside a free tracker's frame and clock a robot is as far from the simulator as the nuisances say, however far
-    // its noise makes it stray. What moves counts against commands, and not the robot, is seen there.
-    if (model_.tracker_is_free() && !base.hypotheses.empty()) return true;
-    const double smallest = base.hypotheses.empty() ? thresholds_.smallest : thresholds_.smallest_addition;
-    const bool small = fit.size < smallest && fit.seen < thresholds_.least_seen;
-    return !small || shows_in_counts(find_effect(fit.hypotheses.back().effect));
-  }
-
-  void fit_singles() {
-    std::vector<Screen::Candidate> singles = screen_.on_top_of(none_);
-    for (const Screen::Candidate& c : singles) {
-      const auto [of_effect, fresh] = p_values_.try_emplace(c.hypothesis.effect, c.p_value);
-      if (!fresh) of_effect->second = std::min(of_effect->second, c.p_value);
-    }
-    fit_promising(singles, false, {kScreening, (1 - kScreening) / 2});
-    // Another engine's contacts jolt the robot where nothing is.
-    if (model_.surely_another_engines(*std::max_element(fits_.begin(), fits_.end(), less_evidence))) {
-      Model another = model_;
-      another.take_for_another_engines();
-      screen_.look_through(std::move(another));
-      singles = screen_.on_top_of(none_);
-    }
-    fit_promising(singles, true, {(1 + kScreening) / 2, (1 - kScreening) / 2});
-  }
-
-  // `local`: places and moments, or all others.
-  void fit_promising(std::vector<Screen::Candidate>& singles, bool local, Part part) {
-    const std::vector<std::size_t> promising = worth_a_fit(singles);
-    for (std::size_t i = 0; i < promising.size(); ++i) {
-      done(part.from + part.size * double(i) / double(promising.size()));
-      Screen::Candidate& c = singles[promising[i]];
-      if ((c.hypothesis.search_cost > 0) != local) continue;
-      const double most =
-          std::max_element(fits_.begin(), fits_.end(), less_evidence)->log_evidence - none_.log_evidence;
-      if (local && idle(c, most)) continue;
-      const double least =
-          none_.log_evidence + std::max(kWorthASearch * most, c.hypothesis.search_cost + thresholds_.effect_cost);
-      if (auto fit = tried(none_, c, least)) {
-        fits_.push_back(std::move(*fit));
-      }
-    }
-  }
-
-  // No real robot is built to its drawing: the dimensions that every calibration is about are fitted together before
-  // anything else is looked for, each as long as it pays for its number.
-  void fit_dimensions() {
-    Fit base = none_;
-    for (;;) {
-      std::optional<Fit> best;
-      for (const Screen::Candidate& c : screen_.on_top_of(base)) {
-        if (!is_dimension(c.hypothesis.effect)) continue;
-        auto fit = tried(base, c, -1e300);
-        if (fit && (!best || fit->log_evidence > best->log_evidence)) best = std::move(fit);
-      }
-      if (!best || best->log_evidence < base.log_evidence + thresholds_.effect_cost) break;
-      base = std::move(*best);
-      if (base.hypotheses.size() > 1) fits_.push_back(base);
-    }
-    // Each may stand for another effect that moves the robot much as it does: counts lost by one wheel for its radius.
-    if (base.hypotheses.size() > 1) {
-      for (std::size_t out = 0; out < base.hypotheses.size(); ++out) exchange(base, out, fits_);
-    }
-  }
-
-  // Places and moments take many simulations: not alone where another effect explains far more than the matched filter
-  // sees of them (they are looked for beside it), nor where something else explains all that noise does not, and more
-  // than they do where they begin. `most`: what the best of all fits explains.
-  bool idle(Screen::Candidate& c, double most) const {
-    if (c.gain < kLocalHint * kWorthASearch * most) return true;
-    double rival = -1e300;
-    for (const Fit& f : fits_) {
-      if (explains_all(model_, f, none_, thresholds_)) rival = std::max(rival, f.log_evidence - none_.log_evidence);
-    }
-    if (rival < c.gain) return false;
-    if (c.gain < kLocalHint * rival) return true;
-    return keep_best_starts(model_, none_, c) - none_.log_evidence < rival;
-  }
-
-  // Runs that are surely another engine's, whatever is added, are searched again as such. Here the best fit and its
-  // likeliest further effects are enough to tell that. False, and nothing in `paying`, where they are not.
-  bool follow_best(const Fit& best, std::vector<Fit>& paying) {
-    paying.clear();
-    if (!model_.surely_another_engines(best)) return false;
-    const std::size_t known = fits_.size();
-    add_to(best, kFewAdditions, {0, kAdding}, paying);
-    if (!paying.empty() &&
-        model_.surely_another_engines(*std::max_element(paying.begin(), paying.end(), less_evidence)))
-      return true;
-    fits_.erase(fits_.begin() + std::ptrdiff_t(known), fits_.end());
-    paying.clear();
-    return false;
-  }
-
-  // Fits of `base` and one effect more that pay; `most`: that are fitted.
-  void add_to(const Fit& base, std::size_t most, Part part, std::vector<Fit>& paying) {
-    const Needed needed = addition_needed(model_, base, none_, thresholds_);
-    const double held = model_.density_at(base.hypotheses, base.p);
-    std::size_t fitted = 0;
-    std::size_t local_searches = 0;
-    std::map<std::string, double> tried_gain;
-    std::vector<Fit> found;
-    for (const Screen::Candidate& c : screen_.on_top_of(base)) {
-      if (fitted == most) break;
-      const auto [first, fresh] = tried_gain.try_emplace(c.hypothesis.effect, c.gain);
-      if (!fresh && c.gain < first->second - kAnotherVariant) continue;
-      // A local search for a place or a moment takes more simulations than all other fits.
-      if (c.reach.size() > 1 && local_searches == kLocalSearches) continue;
-      const bool counts = shows_in_counts(find_effect(c.hypothesis.effect));
-      const double hint = counts ? std::min(needed.hint, 0.5 * needed.counts) : needed.hint;
-      if (c.gain < (c.hypothesis.search_cost > 0 ? 0.5 * needed.local : hint)) continue;
-      if (c.reach.size() > 1) ++local_searches;
-      done(part.from + part.size * double(fitted) / double(most));
-      auto fit = tried(base, c, held + kPartOfNeeded * needed.local);
-      if (!fit) continue;
-      ++fitted;
-      found.push_back(std::move(*fit));
-    }
-    for (Fit& fit : base.is_local() ? with_the_best_place(model_, std::move(found)) : found) {
-      if (!pays(model_, base, fit, needed)) {
-        keep_doubtful(base, needed, std::move(fit));
-        continue;
-      }
-      fits_.push_back(fit);
-      paying.push_back(std::move(fit));
-    }
-  }
-
-  // Until the best fit stands, or often enough.
-  void swap(std::vector<Fit>& frontier) {
-    std::string swapped;
-    for (int i = 0; i < kSwaps; ++i) {
-      const Fit best = *std::max_element(frontier.begin(), frontier.end(), less_evidence);
-      if (best.name() == swapped) return;
-      swapped = best.name();
-      swap_one(best, frontier);
-    }
-  }
-
-  // The first effect was chosen while the others were not there: each but the last is taken out, and what could stand
-  // in its place is tried.
-  void swap_one(const Fit& whole, std::vector<Fit>& paying) {
-    for (std::size_t out = 0; out + 1 < whole.hypotheses.size(); ++out) {
-      const std::size_t known = paying.size();
-      exchange(whole, out, paying);
-      fits_.insert(fits_.end(), paying.begin() + std::ptrdiff_t(known), paying.end());
-    }
-  }
-
-  // Takes effect `out` of `whole` out, and adds what pays in its place to `paying`. The screen is linear: what it sees
-  // of the effect taken out, if it sees it, is what rivals are held against.
-  void exchange(const Fit& whole, std::size_t out, std::vector<Fit>& paying) {
-    const Fit base = model_.without(whole, out);
-    fits_.push_back(base);
-    const std::string& effect = whole.hypotheses[out].effect;
-    const std::vector<Screen::Candidate> candidates = screen_.on_top_of(base);
-    double worth = whole.log_evidence - base.log_evidence;
-    const auto own = std::find_if(candidates.begin(), candidates.end(),
-                                  [&](const Screen::Candidate& c) { return c.hypothesis.effect == effect; });
-    if (own != candidates.end() && own->reach.size() <= 1) worth = std::min(worth, own->gain);
-    std::size_t fitted = 0;
-    for (const Screen::Candidate& c : candidates) {
-      if (c.hypothesis.effect == effect) continue;
-      if (c.gain < kRivals * worth || fitted == kSwapsFitted) break;
-      if (c.reach.size() > 1) continue;
-      auto fit = tried(base, c, -1e300);
-      if (!fit) continue;
-      ++fitted;
-      if (pays(model_, base, *fit, addition_needed(model_, base, none_, thresholds_)))
-        paying.push_back(std::move(*fit));
-    }
-  }
-
-  const Model& model_;
-  Screen& screen_;
-  const Thresholds& thresholds_;
-  const ProgressCallback& progress_;
-  std::string stage_;
-  const Fit none_;
-  std::vector<Fit> fits_;
-  std::vector<Fit> doubtful_;
-  std::map<std::string, double> p_values_;
-};
-
 }  // namespace
 
+Found ForwardSearch::run() {
+  begin("fitting single effects");
+  fit_singles();
+  if (model_.tracker_is_free()) fit_dimensions();
+  std::vector<Fit> frontier(fits_.begin() + 1, fits_.end());
+  for (int depth = 2; depth <= thresholds_.most_effects; ++depth) {
+    const std::vector<Fit> from = bases(model_, none_, std::move(frontier), thresholds_);
+    if (from.empty() || from.front().log_evidence < none_.log_evidence + thresholds_.detect) break;
+    begin(depth == 2 ? "fitting pairs of effects" : "fitting combinations of three");
+    if (follow_best(from.front(), frontier)) continue;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      add_to(from[i], kAdditionsFitted, {kAdding * double(i) / double(from.size()), kAdding / double(from.size())},
+             frontier);
+    }
+    if (frontier.empty()) break;
+    done(kAdding);
+    swap(frontier);
+  }
+  return {std::move(fits_), std::move(doubtful_), std::move(p_values_)};
+}
+
+void ForwardSearch::begin(const std::string& stage) {
+  stage_ = stage;
+  done(0);
+}
+
+std::optional<Fit> ForwardSearch::tried(const Fit& base, const Screen::Candidate& c, double least) {
+  std::vector<Hypothesis> hypotheses = base.hypotheses;
+  hypotheses.push_back(c.hypothesis);
+  try {
+    const std::optional<Eigen::VectorXd> from = searched_start(model_, base, c, least);
+    if (!from) return std::nullopt;
+    Eigen::VectorXd start(base.p.size() + from->size());
+    start << base.p, *from;
+    Fit fit = model_.fit(hypotheses, start, base.hypotheses.empty() ? kRounds : kFewerRounds, {},
+                         screen_.near(base, c.hypothesis));
+    // A place may have been fitted so that it makes up for what is only now beside it. What takes part in the contact
+    // would mend how another engine's robot is shaken there.
+    if (base.is_local() && is_kinematic(c.hypothesis.effect) && c.gain > thresholds_.addition) {
+      fit = with_place_searched_again(model_, fit);
+    }
+    fit.size = displacement_m(fit.predicted.tracks, base.predicted.tracks) / model_.noise_floor_m();
+    fit.seen = std::sqrt(seen_between(model_, base, fit) / model_.rows());
+    if (contradicted(model_, base, fit)) return std::nullopt;
+    if (large_enough(base, fit)) return fit;
+    keep_doubtful(base, addition_needed(model_, base, none_, thresholds_), std::move(fit));
+  } catch (const RunError&) {
+    // A robot that cannot be simulated is no explanation,
+  } catch (const InputError&) {
+    // nor is one that does not stand at its start, on a cable or without a wheel's floor.
+  }
+  return std::nullopt;
+}
+
+void ForwardSearch::keep_doubtful(const Fit& base, const Needed& needed, Fit fit) {
+  if (base.hypotheses.empty() || pays(model_, base, fit, needed, kDoubtful)) doubtful_.push_back(std::move(fit));
+}
+
+bool ForwardSearch::large_enough(const Fit& base, const Fit& fit) const {
+  // Beside a free tracker's frame and clock a robot is as far from the simulator as the nuisances say, however far
+  // its noise makes it stray. What moves counts against commands, and not the robot, is seen there.
+  if (model_.tracker_is_free() && !base.hypotheses.empty()) return true;
+  const double smallest = base.hypotheses.empty() ? thresholds_.smallest : thresholds_.smallest_addition;
+  const bool small = fit.size < smallest && fit.seen < thresholds_.least_seen;
+  return !small || shows_in_counts(find_effect(fit.hypotheses.back().effect));
+}
+
+void ForwardSearch::fit_singles() {
+  std::vector<Screen::Candidate> singles = screen_.on_top_of(none_);
+  for (const Screen::Candidate& c : singles) {
+    const auto [of_effect, fresh] = p_values_.try_emplace(c.hypothesis.effect, c.p_value);
+    if (!fresh) of_effect->second = std::min(of_effect->second, c.p_value);
+  }
+  fit_promising(singles, false, {kScreening, (1 - kScreening) / 2});
+  // Another engine's contacts jolt the robot where nothing is.
+  if (model_.surely_another_engines(*std::max_element(fits_.begin(), fits_.end(), less_evidence))) {
+    Model another = model_;
+    another.take_for_another_engines();
+    screen_.look_through(std::move(another));
+    singles = screen_.on_top_of(none_);
+  }
+  fit_promising(singles, true, {(1 + kScreening) / 2, (1 - kScreening) / 2});
+}
+
+// `local`: places and moments, or all others.
+void ForwardSearch::fit_promising(std::vector<Screen::Candidate>& singles, bool local, Part part) {
+  const std::vector<std::size_t> promising = worth_a_fit(singles);
+  for (std::size_t i = 0; i < promising.size(); ++i) {
+    done(part.from + part.size * double(i) / double(promising.size()));
+    Screen::Candidate& c = singles[promising[i]];
+    if ((c.hypothesis.search_cost > 0) != local) continue;
+    const double most = std::max_element(fits_.begin(), fits_.end(), less_evidence)->log_evidence - none_.log_evidence;
+    if (local && idle(c, most)) continue;
+    const double least =
+        none_.log_evidence + std::max(kWorthASearch * most, c.hypothesis.search_cost + thresholds_.effect_cost);
+    if (auto fit = tried(none_, c, least)) {
+      fits_.push_back(std::move(*fit));
+    }
+  }
+}
+
+// No real robot is built to its drawing: the dimensions that every calibration is about are fitted together before
+// anything else is looked for, each as long as it pays for its number.
+void ForwardSearch::fit_dimensions() {
+  Fit base = none_;
+  for (;;) {
+    std::optional<Fit> best;
+    for (const Screen::Candidate& c : screen_.on_top_of(base)) {
+      if (!is_dimension(c.hypothesis.effect)) continue;
+      auto fit = tried(base, c, -1e300);
+      if (fit && (!best || fit->log_evidence > best->log_evidence)) best = std::move(fit);
+    }
+    if (!best || best->log_evidence < base.log_evidence + thresholds_.effect_cost) break;
+    base = std::move(*best);
+    if (base.hypotheses.size() > 1) fits_.push_back(base);
+  }
+  // Each may stand for another effect that moves the robot much as it does: counts lost by one wheel for its radius.
+  if (base.hypotheses.size() > 1) {
+    for (std::size_t out = 0; out < base.hypotheses.size(); ++out) exchange(base, out, fits_);
+  }
+}
+
+// Places and moments take many simulations: not alone where another effect explains far more than the matched filter
+// sees of them (they are looked for beside it), nor where something else explains all that noise does not, and more
+// than they do where they begin. `most`: what the best of all fits explains.
+bool ForwardSearch::idle(Screen::Candidate& c, double most) const {
+  if (c.gain < kLocalHint * kWorthASearch * most) return true;
+  double rival = -1e300;
+  for (const Fit& f : fits_) {
+    if (explains_all(model_, f, none_, thresholds_)) rival = std::max(rival, f.log_evidence - none_.log_evidence);
+  }
+  if (rival < c.gain) return false;
+  if (c.gain < kLocalHint * rival) return true;
+  return keep_best_starts(model_, none_, c) - none_.log_evidence < rival;
+}
+
+// Runs that are surely another engine's, whatever is added, are searched again as such. Here the best fit and its
+// likeliest further effects are enough to tell that. False, and nothing in `paying`, where they are not.
+bool ForwardSearch::follow_best(const Fit& best, std::vector<Fit>& paying) {
+  paying.clear();
+  if (!model_.surely_another_engines(best)) return false;
+  const std::size_t known = fits_.size();
+  add_to(best, kFewAdditions, {0, kAdding}, paying);
+  if (!paying.empty() && model_.surely_another_engines(*std::max_element(paying.begin(), paying.end(), less_evidence)))
+    return true;
+  fits_.erase(fits_.begin() + std::ptrdiff_t(known), fits_.end());
+  paying.clear();
+  return false;
+}
+
+// Fits of `base` and one effect more that pay; `most`: that are fitted.
+void ForwardSearch::add_to(const Fit& base, std::size_t most, Part part, std::vector<Fit>& paying) {
+  const Needed needed = addition_needed(model_, base, none_, thresholds_);
+  const double held = model_.density_at(base.hypotheses, base.p);
+  std::size_t fitted = 0;
+  std::size_t local_searches = 0;
+  std::map<std::string, double> tried_gain;
+  std::vector<Fit> found;
+  for (const Screen::Candidate& c : screen_.on_top_of(base)) {
+    if (fitted == most) break;
+    const auto [first, fresh] = tried_gain.try_emplace(c.hypothesis.effect, c.gain);
+    if (!fresh && c.gain < first->second - kAnotherVariant) continue;
+    // A local search for a place or a moment takes more simulations than all other fits.
+    if (c.reach.size() > 1 && local_searches == kLocalSearches) continue;
+    const bool counts = shows_in_counts(find_effect(c.hypothesis.effect));
+    const double hint = counts ? std::min(needed.hint, 0.5 * needed.counts) : needed.hint;
+    if (c.gain < (c.hypothesis.search_cost > 0 ? 0.5 * needed.local : hint)) continue;
+    if (c.reach.size() > 1) ++local_searches;
+    done(part.from + part.size * double(fitted) / double(most));
+    auto fit = tried(base, c, held + kPartOfNeeded * needed.local);
+    if (!fit) continue;
+    ++fitted;
+    found.push_back(std::move(*fit));
+  }
+  for (Fit& fit : base.is_local() ? with_the_best_place(model_, std::move(found)) : found) {
+    if (!pays(model_, base, fit, needed)) {
+      keep_doubtful(base, needed, std::move(fit));
+      continue;
+    }
+    fits_.push_back(fit);
+    paying.push_back(std::move(fit));
+  }
+}
+
 Found search(const Model& model, Screen& screen, const Thresholds& thresholds, const ProgressCallback& progress) {
-  return Search(model, screen, thresholds, progress).run();
+  return ForwardSearch(model, screen, thresholds, progress).run();
 }
 
 }  // namespace umbsim::gap

@@ -48,14 +48,15 @@ const std::map<std::string, Rooms> kRooms = {
     {"core", {{{"text", {}}}, {"text"}}},
     {"sim", {{{"model", {}}, {"mesh", {}}, {"urdf", {"model", "mesh"}}, {"dynamics", {"model"}}}, {}}},
     {"gap",
-     {{{"replay", {}},
-       {"noise", {"replay"}},
-       {"hypotheses", {}},
-       {"evidence", {"replay", "noise", "hypotheses"}},
-       {"search", {"replay", "noise", "hypotheses", "evidence"}},
-       {"answer", {"replay", "noise", "hypotheses", "evidence", "search"}},
-       {"plan", {"replay", "noise", "hypotheses", "evidence", "search", "answer"}},
-       {"output", {"replay", "noise", "hypotheses", "evidence", "search", "answer", "plan"}},
+     {{{"traits", {}},
+       {"replay", {"traits"}},
+       {"noise", {"traits", "replay"}},
+       {"hypotheses", {"traits"}},
+       {"evidence", {"traits", "replay", "noise", "hypotheses"}},
+       {"search", {"traits", "replay", "noise", "hypotheses", "evidence"}},
+       {"answer", {"traits", "replay", "noise", "hypotheses", "evidence", "search"}},
+       {"plan", {"traits", "replay", "noise", "hypotheses", "evidence", "search", "answer"}},
+       {"output", {"traits", "replay", "noise", "hypotheses", "evidence", "search", "answer", "plan"}},
        {"trial", {}}},
       {}}},
     {"gap/trial",
@@ -213,6 +214,39 @@ TEST(Architecture, RoomsAreSmall) {
   for (const auto& [room, size] : rooms) {
     EXPECT_LE(size.first, kMostFiles) << room;
     EXPECT_LE(size.second, kMostLines) << room;
+  }
+}
+
+/// Names of all effects, as the catalogue's table begins its lines.
+Names effects() {
+  std::ifstream stream(kRoot / "effects/table.cpp");
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  static const std::regex line(R"re(line<\w+>\(\s*"([a-z_]+)")re");
+  Names names;
+  for (auto m = std::sregex_iterator(text.begin(), text.end(), line); m != std::sregex_iterator(); ++m)
+    names.insert((*m)[1]);
+  return names;
+}
+
+// What gap/ knows of an effect stands in its table of traits, and how it is fitted among the hypotheses. Elsewhere an
+// effect's name may only fetch its physics from the catalogue, or name what a file is about; the trial draws effects.
+TEST(Architecture, GapAsksForTraitsNotForNames) {
+  const Names names = effects();
+  EXPECT_GT(names.size(), 25u);
+  static const std::regex literal(R"re((\w*\W?)"([a-z_]+)")re");
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "gap")) {
+    const std::string file = fs::relative(entry.path(), kRoot).string();
+    const std::string room = file.substr(0, file.find('/', 4));
+    if (!entry.is_regular_file() || Names{"gap/traits", "gap/hypotheses", "gap/trial"}.count(room)) continue;
+    std::ifstream stream(entry.path());
+    std::string text;
+    for (int line = 1; std::getline(stream, text); ++line) {
+      for (auto m = std::sregex_iterator(text.begin(), text.end(), literal); m != std::sregex_iterator(); ++m) {
+        const std::string before = (*m)[1];
+        const bool fetched = before.ends_with("find_effect(") || text.starts_with("inline constexpr");
+        EXPECT_TRUE(fetched || names.count((*m)[2]) == 0) << file << ":" << line << ": " << text;
+      }
+    }
   }
 }
 

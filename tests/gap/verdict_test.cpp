@@ -217,8 +217,8 @@ TEST(DiagnosisText, FitsATerminal) {
 
 // A table that the compiler does not check against the catalogue.
 TEST(Pattern, EveryEffectHasOne) {
-  for (const EffectInfo& info : catalogue()) EXPECT_NE(pattern_of(info.name), "") << info.name;
-  EXPECT_EQ(pattern_of("no such effect"), "");
+  for (const EffectInfo& info : catalogue()) EXPECT_NE(traits_of(info.name).pattern, "") << info.name;
+  EXPECT_EQ(traits_of("no such effect").pattern, "");
 }
 
 }  // namespace

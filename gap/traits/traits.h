@@ -1,0 +1,76 @@
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "effects/catalogue.h"
+
+namespace umbsim::gap {
+
+/// Kinds of effects that errors of a model are taken for, as bits.
+enum Looks : unsigned {
+  kNothing = 0,
+  kSlip = 1,    ///< tyres that slip or creep all the way
+  kPlay = 2,    ///< play, and counts that are late
+  kPlace = 4,   ///< grip or ground that is missing for a moment, and pushes
+  kRadius = 8,  ///< another radius
+  kCaster = 16,
+};
+
+/// What an effect is to the diagnosis, as bits.
+enum Is : unsigned {
+  /// It follows from rolling, counting and driving alone, without a contact that slips, scrubs or climbs: another
+  /// engine's robot, or a real one, shows it as ours does.
+  kKinematic = 1,
+  /// One of the three dimensions that every calibration is about: mean radius, ratio of radii, wheelbase.
+  kDimension = 2,
+  kCommandedMotion = 4,   ///< what was asked of the robot, beyond the course
+  kOfAPlace = 8,          ///< searched for at a place, or at a moment
+  kDisc = 16,             ///< of these, felt within a radius alone
+  kCable = 32,            ///< of these, shakes each engine's robot in its own way
+  kScrubs = 64,           ///< of tyres that nobody knows
+  kByChance = 128,        ///< the runs scatter by it
+  kByRun = 256,           ///< it grows from run to run
+  kLikeADimension = 512,  ///< does what a dimension does, and engines differ in it by no more
+  kThreshold = 1024,      ///< nothing, until it lets go: tried at several strengths
+  kFromWhatShows = 2048,  ///< linear only about what the counts show
+};
+
+/// Where the commands and counts show an effect: a number of CommandFeatures, and what it then lies between.
+struct ShownBy {
+  int feature = -1;  ///< none
+  double above = -std::numeric_limits<double>::infinity();
+  double below = std::numeric_limits<double>::infinity();
+};
+
+/// One line for each effect: all that the diagnosis knows of it besides its physics and its hypotheses.
+struct Traits {
+  std::string effect;
+  /// What the gap goes with: turns, legs, leg_start, place, wheel_angle, world_direction, one_run, runs, load, speed,
+  /// reversals, commands.
+  std::string pattern;
+  unsigned is = 0;
+  unsigned looks = kNothing;
+  /// How its model may err in another engine, or on other tyres: by this share of what it explains, which then looks
+  /// like effects of these kinds. A further effect of such a kind must bring more.
+  double error_share = 0;
+  unsigned error_looks = kNothing;
+  ShownBy shown{};
+};
+
+/// Of a name that is no effect's: none at all.
+const Traits& traits_of(const std::string& effect);
+
+inline bool is(const std::string& effect, Is what) { return (traits_of(effect).is & what) != 0; }
+inline bool is_kinematic(const std::string& effect) { return is(effect, kKinematic); }
+inline bool is_dimension(const std::string& effect) { return is(effect, kDimension); }
+inline bool is_commanded_motion(const std::string& effect) { return is(effect, kCommandedMotion); }
+
+/// Whether counts against commands, or how the robot was driven and read, show the effect; others only move the robot.
+bool shows_in_counts(const EffectInfo& info);
+
+/// Whether it acts at a contact or on the floor, and is neither kinematic nor seen in the counts: what an engine's
+/// contacts make of it is its own.
+bool is_contact(const std::string& effect);
+
+}  // namespace umbsim::gap
