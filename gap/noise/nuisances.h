@@ -76,7 +76,7 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
                          const Drive& drive, double floor_m, int more_rows, const std::vector<CountsSd>& counts);
 
 /// Leaves trackers that are exact alone, if the points that they see lie in the axle's middle: a heading that is off
-/// the drive axis looks like toe, and its point tells how a tracker was mounted, whatever else moves the robot. `mean`:
+/// the drive axis looks like toe; its point, which little else moves, tells how a tracker was mounted. `mean`:
 /// of all shared numbers, fitted with trackers mounted by hand.
 void settle_trackers(Nuisances& nuisances, const Scatter& scatter, const Eigen::VectorXd& mean);
 

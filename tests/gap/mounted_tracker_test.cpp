@@ -39,7 +39,7 @@ TEST(MountedTracker, IsNoToe) {
   EXPECT_EQ(first_of(Subject(mounted(campaign(unequal, 52), kByHand)).diagnosed()), "wheel_radius_difference");
 }
 
-// Whatever else moves the robot: its point goes round in turns in place.
+// Its point goes round in turns in place, and little else moves that.
 TEST(MountedTracker, ItsPointTellsHowItWasMounted) {
   const std::vector<Effect> toed{effect("wheel_misalignment", {{"right_toe_rad", 0.006}})};
   const std::vector<Effect> wide{effect("wheelbase", {{"relative", 0.01}}),
