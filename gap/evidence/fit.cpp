@@ -42,21 +42,35 @@ bool Fit::is_local() const {
   return std::any_of(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& f) { return f.search_cost > 0; });
 }
 
-// Derivatives at the fit's numbers, by a step in every direction.
+// Derivatives at the fit's numbers, by a step in every direction: the other way where the robot cannot be driven so.
 Linearisation Model::linearised(const Fit& fit) const {
   const std::vector<FreeParameter> free = free_parameters(fit.hypotheses);
-  std::vector<std::vector<Effect>> sets;
   std::vector<double> steps;
+  const auto stepped = [&](Eigen::Index i) {
+    Eigen::VectorXd p = fit.p;
+    p[i] += steps[std::size_t(i)];
+    return fit.effects_at(p);
+  };
+  std::vector<std::vector<Effect>> sets;
   for (Eigen::Index i = 0; i < fit.p.size(); ++i) {
     const FreeParameter& parameter = free[std::size_t(i)];
-    Fit stepped;
-    stepped.hypotheses = fit.hypotheses;
-    stepped.p = fit.p;
     steps.push_back(fit.p[i] + parameter.step > parameter.max ? -parameter.step : parameter.step);
-    stepped.p[i] += steps.back();
-    sets.push_back(stepped.effects());
+    sets.push_back(stepped(i));
   }
-  return {fit.p, residuals(fit.predicted), columns(fit.predicted, predict(sets), steps)};
+  std::vector<Predicted> predicted;
+  try {
+    predicted = predict(sets);
+  } catch (const std::runtime_error&) {
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      try {
+        predicted.push_back(predict({sets[i]}).front());
+      } catch (const std::runtime_error&) {
+        steps[i] *= -1;
+        predicted.push_back(predict({stepped(Eigen::Index(i))}).front());
+      }
+    }
+  }
+  return {fit.p, residuals(fit.predicted), columns(fit.predicted, predicted, steps)};
 }
 
 namespace {

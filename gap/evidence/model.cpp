@@ -127,7 +127,7 @@ std::vector<Eigen::VectorXd> Model::residuals(const Predicted& predicted) const 
   std::vector<Eigen::VectorXd> result(recording().runs.size());
   tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t r) {
     if (predicted.tracks[r].empty()) return;
-    const Eigen::VectorXd white = filters_[r].whiten(track_error(predicted.tracks[r], nominal_.truth[r]));
+    const Eigen::VectorXd white = filters_[r].whiten(filters_[r].error(predicted.tracks[r], nominal_.truth[r]));
     result[r].resize(white.size() + kFeatureRows);
     result[r] << white, feature_rows(r, measured_, predicted, false);
   });
@@ -142,7 +142,7 @@ std::vector<Eigen::MatrixXd> Model::columns(const Predicted& at, const std::vect
     Eigen::MatrixXd raw(n, Eigen::Index(stepped.size()));
     result[r].resize(n + kFeatureRows, raw.cols());
     for (std::size_t j = 0; j < stepped.size(); ++j) {
-      raw.col(Eigen::Index(j)) = track_error(at.tracks[r], stepped[j].tracks[r]) / steps[j];
+      raw.col(Eigen::Index(j)) = filters_[r].error(at.tracks[r], stepped[j].tracks[r]) / steps[j];
       result[r].col(Eigen::Index(j)).tail(kFeatureRows) = feature_rows(r, stepped[j], at, false) / steps[j];
     }
     result[r].topRows(n) = filters_[r].whiten(raw);

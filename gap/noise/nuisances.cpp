@@ -191,8 +191,8 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
       raw(3 * k, tracker) = raw(3 * k + 1, tracker + 1) = raw(3 * k + 2, tracker + 3) = 1;
       raw.block<3, 1>(3 * k, tracker + 2) = nominal.velocity[r][std::size_t(k)];
     }
-    raw.col(kCreepColumn) = track_error(nominal.tracks[r], crept[r]) / kCreep;
-    if (!slipped.empty()) raw.col(kSlipColumn) = track_error(nominal.tracks[r], slipped[r]);
+    raw.col(kCreepColumn) = filters[r].error(nominal.tracks[r], crept[r]) / kCreep;
+    if (!slipped.empty()) raw.col(kSlipColumn) = filters[r].error(nominal.tracks[r], slipped[r]);
     const auto impulses = group_impulses(nominal, r);
     const Eigen::Index first = layout.group(groups.group_of[r]);
     for (int i = 0; i < kPerGroup; ++i) raw.col(first + i) = filters[r].propagate(impulses[std::size_t(i)]);

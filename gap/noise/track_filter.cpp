@@ -9,6 +9,7 @@ namespace {
 // Standard deviations of the start pose before anything is seen: the tracker's frame and the start are free.
 constexpr double kStart_m = 0.02;
 constexpr double kStart_rad = 0.2;
+constexpr double kHeadingSeen_rad = 1e-3;
 
 }  // namespace
 
@@ -42,6 +43,7 @@ TrackFilter::TrackFilter(const std::vector<Pose2>& path, const std::vector<doubl
   const Eigen::Matrix3d R = Eigen::Vector3d(p, p, noise.heading_sd_rad * noise.heading_sd_rad).asDiagonal();
   Eigen::Matrix3d P = Eigen::Vector3d(kStart_m * kStart_m, kStart_m * kStart_m, kStart_rad * kStart_rad).asDiagonal();
   steps_.reserve(path.size());
+  sees_headings_ = noise.heading_sd_rad <= kHeadingSeen_rad;
   for (std::size_t k = 0; k < path.size(); ++k) {
     Step step;
     step.transition.setIdentity();
@@ -67,6 +69,18 @@ TrackFilter::TrackFilter(const std::vector<Pose2>& path, const std::vector<doubl
     P = (0.5 * (P + P.transpose())).eval();
     steps_.push_back(step);
   }
+}
+
+Eigen::VectorXd TrackFilter::error(const std::vector<Pose2>& predicted, const std::vector<Pose2>& actual) const {
+  Eigen::VectorXd error = track_error(predicted, actual);
+  if (!sees_headings_) return error;
+  for (std::size_t k = 1; k < steps_.size(); ++k) {
+    const Pose2 foretold = inverse(predicted[k - 1]) * predicted[k];
+    const Pose2 wrong = inverse(foretold) * (inverse(actual[k - 1]) * actual[k]);
+    const auto at = [&](std::size_t sample) { return error.segment<3>(3 * Eigen::Index(sample)); };
+    at(k) = steps_[k].transition * at(k - 1) + Eigen::Vector3d(wrong.x_m, wrong.y_m, wrong.theta_rad);
+  }
+  return error;
 }
 
 TrackColumns TrackFilter::whiten(const TrackColumns& columns) const {

@@ -42,6 +42,12 @@ class TrackFilter {
   TrackFilter(const std::vector<Pose2>& path, const std::vector<double>& rolled_m, const NoiseModel& noise,
               const std::vector<bool>& observed = {}, const std::vector<Eigen::Vector3d>& velocity = {});
 
+  /// Errors of `actual` against `predicted` as this filter carries them along: what was wrong with each motion from
+  /// sample to sample, propagated to first order. So they are linear in what acts on the motions, however far the
+  /// tracks part; the pose error itself has the square of a heading error times the way. Where headings are known to
+  /// more than a milliradian only: their noise would be squared as well. Else the same as track_error().
+  Eigen::VectorXd error(const std::vector<Pose2>& predicted, const std::vector<Pose2>& actual) const;
+
   TrackColumns whiten(const TrackColumns& columns) const;
   /// Sum over samples of log det of the innovations' covariance.
   double log_det() const { return log_det_; }
@@ -66,6 +72,7 @@ class TrackFilter {
     Eigen::Matrix3d whitener;  ///< inverse Cholesky factor of the innovation's covariance
   };
   std::vector<Step> steps_;
+  bool sees_headings_ = false;
   double log_det_ = 0;
 };
 

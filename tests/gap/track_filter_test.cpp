@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <cstdio>
 
 #include "core/random.h"
 
@@ -193,6 +194,47 @@ TEST(TrackFilter, PropagatesLikePoses) {
   const Eigen::VectorXd expected = track_error(path, kicked);
   // Second order in the impulse, over a path of some metres.
   EXPECT_LT((filter.propagate(impulses) - expected).lpNorm<Eigen::Infinity>(), 20 * kSmall * kSmall);
+}
+
+/// The same motions, each with its heading changed by a share of what it is and of how far it goes.
+std::vector<Pose2> turned_more(const std::vector<Pose2>& path, double share) {
+  std::vector<Pose2> other{path.front()};
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    const Pose2 u = inverse(path[k - 1]) * path[k];
+    other.push_back(other.back() * arc(std::hypot(u.x_m, u.y_m), u.theta_rad * (1 + share) + share * 3 * kStep_m));
+  }
+  return other;
+}
+
+// Unequal wheels that turn the robot by a quarter of a radian too much: the pose error is bent by the square of that,
+// what this filter carries along is not.
+TEST(TrackFilterError, IsLinearInWhatActsOnTheMotions) {
+  const std::vector<Pose2> path = bent_path();
+  const TrackFilter filter(path, rolled(path), kNoise);
+  constexpr double kShare = 0.01;
+  const auto little = turned_more(path, 0.1 * kShare), much = turned_more(path, kShare);
+  ASSERT_GT(std::abs(track_error(path, much)(Eigen::last)), 0.2);
+  const auto bent = [&](const Eigen::VectorXd& of_little, const Eigen::VectorXd& of_much) {
+    return (of_much - 10 * of_little).lpNorm<Eigen::Infinity>() / of_much.lpNorm<Eigen::Infinity>();
+  };
+  const double carried = bent(filter.error(path, little), filter.error(path, much));
+  const double poses = bent(track_error(path, little), track_error(path, much));
+  std::printf("off a straight line: carried along %.1e, pose errors %.1e of the largest\n", carried, poses);
+  EXPECT_LT(carried, 1e-3);
+  EXPECT_GT(poses, 20 * carried);
+}
+
+// Small errors, and the tracker's noise, are the same either way; headings that a tracker hardly sees are not squared.
+TEST(TrackFilterError, SmallErrorsAreThePoses) {
+  const std::vector<Pose2> path = bent_path();
+  const std::vector<double> rolled_m = rolled(path);
+  const std::vector<Pose2> seen = noisy_drive(path, rolled_m, 5);
+  const Eigen::VectorXd error = track_error(path, seen);
+  const TrackFilter filter(path, rolled_m, kNoise);
+  EXPECT_LT((filter.error(path, seen) - error).lpNorm<Eigen::Infinity>(), 0.03 * error.lpNorm<Eigen::Infinity>());
+  NoiseModel camera = kNoise;
+  camera.heading_sd_rad = 0.03;
+  EXPECT_EQ(TrackFilter(path, rolled_m, camera).error(path, seen), error);
 }
 
 }  // namespace
