@@ -68,6 +68,7 @@ std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, con
     return std::pair(a.hypotheses.size(), -a.log_evidence) < std::pair(b.hypotheses.size(), -b.log_evidence);
   });
   std::vector<Fit> kept;
+  std::vector<Needed> needed;  // beside each of these
   for (Fit& fit : fits) {
     // Dimensions pay less. What is as good with one of them exchanged is not told apart.
     const auto exchanged = [&](const Fit& other) {
@@ -79,9 +80,11 @@ std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, con
         std::all_of(kept.begin(), kept.end(), [&](const Fit& simpler) {
           if (simpler.hypotheses.empty()) return true;
           const double extra = double(fit.hypotheses.size()) - double(simpler.hypotheses.size());
-          return extra <= 0 || pays(model, simpler, fit, addition_needed(model, simpler, none, t), extra);
+          return extra <= 0 || pays(model, simpler, fit, needed[std::size_t(&simpler - kept.data())], extra);
         });
-    if (worthwhile) kept.push_back(std::move(fit));
+    if (!worthwhile) continue;
+    needed.push_back(addition_needed(model, fit, none, t));
+    kept.push_back(std::move(fit));
   }
   return kept;
 }

@@ -172,6 +172,13 @@ class Model {
   /// it was estimated: 0 or less. 0 where no runs were repeated.
   double log_chance(const std::vector<Effect>& effects) const;
 
+  /// This model with the signatures of a fit's effects as unsure as they are in another engine and on other tyres: by
+  /// part of the course and condition of driving, and from motion to motion.
+  Model unsure_of(const Fit& fit) const;
+
+  /// Log density of the data with a fit's numbers held where they are.
+  double held_density(const Fit& fit) const;
+
   /// Log density of the data with the hypotheses' numbers held at p, against none: how well a start would do. `runs`:
   /// that count, and are driven; empty: all.
   double density_at(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& p,

@@ -11,7 +11,7 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr int kRoundsAgain = 2;
+constexpr int kRoundsOnFewer = 2;
 
 }  // namespace
 
@@ -81,7 +81,7 @@ Eigen::VectorXd Model::numbers_on(const Fit& fit, const std::vector<std::size_t>
     }
   };
   const bool astray = density(fit.p) > density(other.p);
-  return this->fit(fit.hypotheses, astray ? fit.p : other.p, kRoundsAgain, runs).p;
+  return this->fit(fit.hypotheses, astray ? fit.p : other.p, kRoundsOnFewer, runs).p;
 }
 
 void Model::score(Fit& fit) const {

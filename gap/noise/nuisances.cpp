@@ -210,6 +210,13 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   return n;
 }
 
+void whiten_again(Nuisances& n, const NominalReplay& nominal, const std::vector<TrackFilter>& filters) {
+  for (std::size_t r = 0; r < filters.size(); ++r) {
+    n.shared[r].topRows(n.tracks[r].rows()) = filters[r].whiten(n.tracks[r]);
+    n.own[r] = whitened(filters[r], own_columns(nominal, filters[r], r), int(n.own[r].rows() - n.tracks[r].rows()));
+  }
+}
+
 void settle_trackers(Nuisances& n, const Scatter& s, const Eigen::VectorXd& mean) {
   const auto log_density = [](double x, double sd) { return -0.5 * x * x / (sd * sd) - std::log(sd); };
   double exact = 0;  // log odds

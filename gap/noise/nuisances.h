@@ -75,6 +75,9 @@ using CountsSd = Eigen::Vector3d;
 Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFilter>& filters, const Scatter& scatter,
                          const Drive& drive, double floor_m, int more_rows, const std::vector<CountsSd>& counts);
 
+/// Whitens them anew, with other filters.
+void whiten_again(Nuisances& nuisances, const NominalReplay& nominal, const std::vector<TrackFilter>& filters);
+
 /// Leaves trackers that are exact alone, if the points that they see lie in the axle's middle: a heading that is off
 /// the drive axis looks like toe; its point, which little else moves, tells how a tracker was mounted. `mean`:
 /// of all shared numbers, fitted with trackers mounted by hand.

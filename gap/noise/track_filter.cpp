@@ -38,7 +38,8 @@ Eigen::VectorXd track_error(const std::vector<Pose2>& predicted, const std::vect
 }
 
 TrackFilter::TrackFilter(const std::vector<Pose2>& path, const std::vector<double>& rolled_m, const NoiseModel& noise,
-                         const std::vector<bool>& observed, const std::vector<Eigen::Vector3d>& velocity) {
+                         const std::vector<bool>& observed, const std::vector<Eigen::Vector3d>& velocity,
+                         const std::vector<Eigen::Vector3d>& more) {
   const double p = noise.position_sd_m * noise.position_sd_m;
   const Eigen::Matrix3d R = Eigen::Vector3d(p, p, noise.heading_sd_rad * noise.heading_sd_rad).asDiagonal();
   Eigen::Matrix3d P = Eigen::Vector3d(kStart_m * kStart_m, kStart_m * kStart_m, kStart_rad * kStart_rad).asDiagonal();
@@ -52,6 +53,7 @@ TrackFilter::TrackFilter(const std::vector<Pose2>& path, const std::vector<doubl
       step.transition = error_transition(u);
       P = (step.transition * P * step.transition.transpose()).eval();
       P.diagonal() += rolled_m[k] * Eigen::Vector3d(noise.along_m2_pm, noise.across_m2_pm, noise.heading_rad2_pm);
+      if (!more.empty()) P.diagonal() += more[k];
     }
     if (!observed.empty() && !observed[k]) {
       step.gain.setZero();

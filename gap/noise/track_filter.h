@@ -38,9 +38,11 @@ class TrackFilter {
  public:
   /// `path`: predicted poses; `rolled_m`: mean distance that the wheels rolled before each sample (same length, first
   /// 0). `observed`: which samples the tracker really saw; empty: all. `velocity`: of the robot at each sample (along,
-  /// across, turning; m/s, rad/s), for the scatter of the clock; empty: none.
+  /// across, turning; m/s, rad/s), for the scatter of the clock; empty: none. `more`: further variance of the error
+  /// that each motion makes (along, across, heading); empty: none.
   TrackFilter(const std::vector<Pose2>& path, const std::vector<double>& rolled_m, const NoiseModel& noise,
-              const std::vector<bool>& observed = {}, const std::vector<Eigen::Vector3d>& velocity = {});
+              const std::vector<bool>& observed = {}, const std::vector<Eigen::Vector3d>& velocity = {},
+              const std::vector<Eigen::Vector3d>& more = {});
 
   /// Errors of `actual` against `predicted` as this filter carries them along: what was wrong with each motion from
   /// sample to sample, propagated to first order. So they are linear in what acts on the motions, however far the

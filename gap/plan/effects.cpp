@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gap/evidence/drivable.h"
+#include "gap/search/drivable.h"
 
 namespace umbsim::gap {
 namespace {

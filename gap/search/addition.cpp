@@ -8,26 +8,14 @@ namespace umbsim::gap {
 
 namespace {
 
-// Variance by which an effect's signature may be off, another engine's robot for one: of the whole signature, for
-// nuisances like a clock's offset that take up most of it do not take up its error.
-constexpr double kSignatureError = 3e-4;
 constexpr double kContradicted = 25;   // five standard deviations, squared
 constexpr double kMost = 0.5;          // of the misfit
 constexpr double kMostOfReading = 16;  // squared standard deviations
 constexpr double kPlain = 2.5;         // times what counts must show
 
-// Toed wheels scrub, and how tyres give way to it is fitted with two numbers only: of what they explain, this share may
-// be another tyre's.
-constexpr double kScrubShare = 0.03;
-
 std::ptrdiff_t that_look(const Fit& fit, unsigned looks) {
   return std::count_if(fit.hypotheses.begin(), fit.hypotheses.end(),
                        [&](const Hypothesis& f) { return (traits_of(f.effect).looks & looks) != 0; });
-}
-
-double share_that_may_err(const Fit& base, const Thresholds& t) {
-  const auto scrubs = [](const Hypothesis& f) { return bool(f.with); };
-  return std::any_of(base.hypotheses.begin(), base.hypotheses.end(), scrubs) ? kScrubShare : t.addition_share;
 }
 
 bool adds_local(const Fit& base, const Fit& fit) {
@@ -53,6 +41,17 @@ double excess(const Model& model, const Fit& fit) {
   double sum = 0;
   for (const Eigen::VectorXd& left : model.left_over(fit)) sum += left.cwiseAbs2().cwiseMin(kMostOfReading).sum();
   return std::max(0.0, std::min(sum, fit.misfit) - (1 + Thresholds{}.noise_error) * model.rows());
+}
+
+// Whether what `fit` adds is more than what the effects of `base` may do otherwise in another engine.
+bool stays_beside(const Model& model, const Fit& base, const Fit& fit, const Needed& needed, double extra) {
+  if (!needed.beside) {
+    needed.beside = std::make_shared<const Model>(model.unsure_of(base));
+    needed.base_beside = needed.beside->held_density(base) - model.held_density(base);
+  }
+  const double beside = needed.beside->held_density(fit) - model.held_density(fit) - needed.base_beside;
+  const double gain = fit.log_evidence - base.log_evidence + beside;
+  return gain >= extra * Thresholds{}.addition;
 }
 
 }  // namespace
@@ -87,15 +86,13 @@ Needed addition_needed(const Model& model, const Fit& base, const Fit& none, con
   const double counts_gained = std::max(0.0, model.counts_misfit(none.predicted) - counts_left) / 2;
   // Where much is left the noise model is too narrow for what it is asked: evidence in units of what is left.
   const double spread = std::max(1.0, base.misfit / model.rows() - t.noise_error);
-  const double off = kSignatureError * seen_between(model, none, base) / 2;
-  const double share = share_that_may_err(base, t) * gained;
-  const double own = spread * (t.addition + std::max(share, off));
+  const double share = t.addition_share * gained;
+  const double own = spread * (t.addition + share);
   const double for_misfit = t.misfit_share * left / 2;
   Needed needed;
   needed.gained = gained;
   needed.left = left;
   needed.everywhere = std::max(own, for_misfit);
-  needed.rolling = std::max(spread * (t.addition + share), for_misfit);
   needed.local = std::max(own, t.local_misfit_share * left / 2);
   // Counts and command features are measured as they are: no noise of the tracks, and no misfit of theirs, speaks
   // against them.
@@ -109,17 +106,16 @@ bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& nee
   const double gain = fit.log_evidence - base.log_evidence;
   // Dimensions of a real robot are always a little off: they pay for their numbers, and no more.
   if (model.tracker_is_free() && adds_dimensions_alone(base, fit)) return gain >= extra * Thresholds{}.effect_cost;
-  if (gain < extra * lookalike_share(base, fit) * needed.gained) return false;
   // What leaves most of the misfit as it was mends an error of the model, as any effect could. The model of what rolls
   // and counts has none: there it is noise that is not as it was thought to be.
   const bool leaves_most = !fit.is_kinematic() && excess(model, fit) > kMost * needed.left;
   const bool dear = leaves_most || adds_local(base, fit);
-  const double everywhere = fit.is_kinematic() ? needed.rolling : needed.everywhere;
-  if (gain >= extra * (dear ? needed.local : everywhere)) return true;
+  if (gain < extra * lookalike_share(base, fit) * needed.gained) return false;
+  if (gain >= extra * (dear ? needed.local : needed.everywhere)) return stays_beside(model, base, fit, needed, extra);
   const double counts = (model.counts_misfit(base.predicted) - model.counts_misfit(fit.predicted)) / 2;
   // What tracks speak for mostly they must pay for, unless most of what counts show is at stake.
   const bool by_counts = counts > gain / 2 || counts >= extra * kPlain * needed.counts;
-  return by_counts && std::min(gain, counts) >= extra * needed.counts;
+  return by_counts && std::min(gain, counts) >= extra * needed.counts && stays_beside(model, base, fit, needed, extra);
 }
 
 }  // namespace umbsim::gap

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "gap/evidence/model.h"
 #include "gap/search/thresholds.h"
 
@@ -8,12 +10,15 @@ namespace umbsim::gap {
 /// What a further effect must bring on top of a fit: log evidence.
 struct Needed {
   double everywhere = 0;  ///< of an effect that acts on all runs
-  double rolling = 0;     ///< of a kinematic effect, on top of such
   double local = 0;       ///< of one place or moment, which finds something to mend in any misfit
   double counts = 0;      ///< or of counts against commands and of command features alone, where tracks say little
   double gained = 0;      ///< what the fit itself brought
   double left = 0;        ///< squares, in standard deviations, that the fit leaves beyond noise
-  double hint = 0;        ///< what the linear screen must see of it, for a fit to be tried
+  /// In which the fit's signatures may be off, made when it is asked for; log density of the fit there, over that in
+  /// the model itself.
+  mutable std::shared_ptr<const Model> beside{};
+  mutable double base_beside = 0;
+  double hint = 0;  ///< what the linear screen must see of it, for a fit to be tried
 };
 
 /// Share of what `base` brought that `fit`, with one effect more, must bring on top: above zero where that effect is

@@ -12,14 +12,12 @@ const std::vector<Traits>& table() {
       {"wheel_radius_scale", "legs", kKinematic | kDimension, kRadius},
       {"wheel_radius_difference", "legs", kKinematic | kDimension, kRadius},
       {"wheelbase", "turns", kKinematic | kDimension},
-      // Toed wheels scrub: how tyres give way to it, and the yaw that it takes, differ between tyres.
+      // Toed wheels scrub: the yaw that it takes differs between tyres.
       {"wheel_misalignment", "legs", kScrubs, kNothing, 0.25, kSlip | kRadius},
-      // Eccentric wheels heave the robot and shift its load: when tyres let go in turns differs between engines.
-      {"wheel_eccentricity", "wheel_angle", 0, kNothing, 0.05, kSlip | kPlace},
+      {"wheel_eccentricity", "wheel_angle"},
       {"load_shift", "load"},
       {"wear", "runs", kKinematic | kByRun, kRadius},
-      // A play's ends are stops that each engine makes in its own way.
-      {"backlash", "reversals", 0, kPlay, 0.01, kSlip | kPlace},
+      {"backlash", "reversals", 0, kPlay},
       {"motor_response", "commands", kKinematic},
       {"over_acceleration", "leg_start", kCommandedMotion, kNothing, 0, kNothing, {0}},
       {"fast_turning", "turns", kCommandedMotion, kNothing, 0, kNothing, {2}},
@@ -34,16 +32,14 @@ const std::vector<Traits>& table() {
       {"tyre_creep", "leg_start", 0, kSlip},
       {"caster_swivel", "leg_start", 0, kCaster},
       {"caster_drag", "legs", 0, kCaster},
-      // How far a wheel slides once it has let go differs.
-      {"slippery_floor", "turns", kThreshold, kSlip, 0.25, kSlip | kPlay | kCaster},
-      // How a place or a push shakes the tyres, and the play behind them, differs between engines.
-      {"slippery_patch", "place", kOfAPlace | kDisc | kThreshold, kPlace, 0.01, kSlip | kPlay},
-      {"bump", "place", kOfAPlace | kCable, kNothing, 0.01, kSlip | kPlay},
+      {"slippery_floor", "turns", kThreshold, kSlip},
+      {"slippery_patch", "place", kOfAPlace | kDisc | kThreshold, kPlace},
+      {"bump", "place", kOfAPlace | kCable},
       {"uneven_floor", "place"},
       {"floor_slope", "world_direction"},
       {"carpet_drift", "world_direction"},
-      {"push", "one_run", kOfAPlace, kPlace, 0.01, kSlip | kPlay},
-      {"wheel_lift", "place", kOfAPlace | kDisc, kPlace, 0.01, kSlip | kPlay},
+      {"push", "one_run", kOfAPlace, kPlace},
+      {"wheel_lift", "place", kOfAPlace | kDisc, kPlace},
   };
   return all;
 }

@@ -193,14 +193,12 @@ Fit fit_of(const std::vector<std::string>& effects) {
   return fit;
 }
 
-// What undone counts, scrubbing tyres and sliding wheels leave looks like certain other effects, and like no others.
+// What undone counts leave looks like certain other effects, and like no others.
 TEST(Addition, WhatLooksLikeAnErrorOfTheFirstEffectMustBringMore) {
   const Fit coarse = fit_of({"encoder_resolution"});
   EXPECT_GT(lookalike_share(coarse, fit_of({"encoder_resolution", "slippery_floor"})), 0.05);
+  EXPECT_GT(lookalike_share(coarse, fit_of({"encoder_resolution", "encoder_latency"})), 0.05);
   EXPECT_EQ(lookalike_share(coarse, fit_of({"encoder_resolution", "wheelbase"})), 0);
-  const Fit slides = fit_of({"encoder_resolution", "slippery_floor"});
-  EXPECT_GT(lookalike_share(slides, fit_of({"encoder_resolution", "slippery_floor", "encoder_latency"})), 0.05);
-  EXPECT_EQ(lookalike_share(slides, fit_of({"encoder_resolution", "slippery_floor", "bump"})), 0);
   EXPECT_EQ(lookalike_share(fit_of({"wheelbase"}), fit_of({"wheelbase", "tyre_creep"})), 0);
   EXPECT_GT(lookalike_share(fit_of({"encoder_missed_counts", "push"}),
                             fit_of({"encoder_missed_counts", "push", "wheel_radius_difference"})),

@@ -6,7 +6,7 @@
 
 #include "calibration/intake/intake.h"
 #include "gap/answer/closure.h"
-#include "gap/evidence/drivable.h"
+#include "gap/search/drivable.h"
 #include "gap/noise/clock.h"
 #include "gap/output/diagnosis_json.h"
 #include "tests/gap/subject.h"

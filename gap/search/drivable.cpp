@@ -1,4 +1,4 @@
-#include "gap/evidence/drivable.h"
+#include "gap/search/drivable.h"
 
 #include <algorithm>
 #include <stdexcept>

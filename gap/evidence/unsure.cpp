@@ -1,0 +1,174 @@
+// A model in which the signatures of a fit's effects may be off, as they are in other engines and on other tyres.
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gap/evidence/model.h"
+#include "gap/replay/run_groups.h"
+#include "gap/traits/signature_errors.h"
+
+namespace umbsim::gap {
+namespace {
+
+constexpr double kSpeedingShare = 0.02;  // of the longest way in a sample, by which one is not like that before
+
+// What a run does before each sample.
+std::vector<CoursePart> parts_of(const NominalReplay& nominal, std::size_t run) {
+  const auto& ways = nominal.wheels_m[run];
+  double longest_m = 0;
+  for (const auto& way : ways) longest_m = std::max({longest_m, std::abs(way[0]), std::abs(way[1])});
+  std::vector<CoursePart> parts(ways.size(), kLeg);
+  for (std::size_t k = 1; k < ways.size(); ++k) {
+    const double ds_m = (ways[k][0] + ways[k][1]) / 2;
+    const double turned_m = std::abs(ways[k][1] - ways[k][0]) / 2;
+    double faster_m = 0;
+    for (int w = 0; w < 2; ++w) faster_m = std::max(faster_m, std::abs(ways[k][w] - ways[k - 1][w]));
+    parts[k] = faster_m > kSpeedingShare * longest_m ? kSpeeding
+               : turned_m < 0.05 * std::abs(ds_m)    ? kLeg
+               : std::abs(ds_m) > 0.3 * turned_m     ? kArc
+                                                     : kInPlace;
+  }
+  return parts;
+}
+
+// What the effects add to each motion.
+Impulses3 added_motions(const std::vector<Pose2>& without, const std::vector<Pose2>& with) {
+  Impulses3 added(without.size(), Eigen::Vector3d::Zero());
+  for (std::size_t k = 1; k < without.size(); ++k) {
+    const Pose2 u = inverse(without[k - 1]) * without[k];
+    const Pose2 off = inverse(u) * (inverse(with[k - 1]) * with[k]);
+    added[k] = {off.x_m, off.y_m, off.theta_rad};
+  }
+  return added;
+}
+
+Impulses3 motions(const std::vector<Pose2>& path) {
+  Impulses3 all(path.size(), Eigen::Vector3d::Zero());
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    const Pose2 u = inverse(path[k - 1]) * path[k];
+    all[k] = {u.x_m, u.y_m, u.theta_rad};
+  }
+  return all;
+}
+
+Eigen::VectorXd with_zeros(const Eigen::VectorXd& v, Eigen::Index more) {
+  Eigen::VectorXd longer = Eigen::VectorXd::Zero(v.size() + more);
+  longer.head(v.size()) = v;
+  return longer;
+}
+
+// Columns that all runs share, in this order: of each effect its pieces, by group of runs and part of the course; what
+// counts show of each; the clock of each tracker; leads of each group, along and turning.
+struct Unsure {
+  Unsure(std::size_t effect_count, const RunGroups& run_groups, std::size_t trackers)
+      : groups(run_groups),
+        effects(Eigen::Index(effect_count)),
+        pieces(Eigen::Index(kCourseParts * groups.rolling.size())),
+        counts(pieces * effects),
+        clocks(counts + effects),
+        leads(clocks + Eigen::Index(trackers)),
+        sd(leads + 2 * Eigen::Index(groups.rolling.size())) {}
+
+  Eigen::Index piece(Eigen::Index effect, std::size_t run, std::size_t part) const {
+    return effect * pieces + Eigen::Index(kCourseParts * groups.group_of[run] + part);
+  }
+  Eigen::Index lead(std::size_t run) const { return leads + 2 * Eigen::Index(groups.group_of[run]); }
+
+  RunGroups groups;
+  Eigen::Index effects, pieces, counts, clocks, leads;
+  Eigen::VectorXd sd;
+};
+
+// One run's part of them, as track errors, and further variance of its motions.
+struct UnsureRun {
+  Eigen::MatrixXd columns;
+  Impulses3 more;
+};
+
+// What an effect adds to the motions of a run, cut by part of the course.
+void add_effect(const Unsure& unsure, Eigen::Index effect, std::size_t run, const TrackFilter& filter,
+                const std::vector<CoursePart>& parts, const Impulses3& added, double motion, UnsureRun& to) {
+  std::vector<Impulses3> cut(kCourseParts, Impulses3(added.size(), Eigen::Vector3d::Zero()));
+  for (std::size_t k = 1; k < added.size(); ++k) {
+    cut[parts[k]][k] = added[k];
+    to.more[k] += (motion * added[k]).cwiseAbs2();
+  }
+  for (std::size_t c = 0; c < kCourseParts; ++c)
+    to.columns.col(unsure.piece(effect, run, c)) = filter.propagate(cut[c]);
+}
+
+// Its tracker's clock, and leads of its poses, as the robot moves at these velocities.
+void add_clock(const Unsure& unsure, std::size_t run, std::size_t tracker, const TrackFilter& filter,
+               const std::vector<Eigen::Vector3d>& velocity, UnsureRun& to) {
+  Impulses3 along(velocity.size(), Eigen::Vector3d::Zero()), turning = along;
+  for (std::size_t k = 0; k < velocity.size(); ++k) {
+    to.columns.col(unsure.clocks + Eigen::Index(tracker)).segment<3>(3 * Eigen::Index(k)) = velocity[k];
+    if (k == 0) continue;
+    along[k][0] = velocity[k][0] - velocity[k - 1][0];
+    turning[k][2] = velocity[k][2] - velocity[k - 1][2];
+  }
+  to.columns.col(unsure.lead(run)) = filter.propagate(along);
+  to.columns.col(unsure.lead(run) + 1) = filter.propagate(turning);
+}
+
+}  // namespace
+
+Model Model::unsure_of(const Fit& fit) const {
+  Model model = *this;
+  const double share = same_engine(fit) ? scatter_.same_engine : 1;
+  const NominalReplay moved = gap::beside(*campaign_, fit.predicted.tracks);
+  Unsure unsure(fit.hypotheses.size(), grouped(recording().runs, nominal_.origin), campaign_->parts.size());
+  std::vector<Predicted> alone;
+  Eigen::Index at = 0;
+  for (Eigen::Index i = 0; i < unsure.effects; ++i) {
+    const Hypothesis& h = fit.hypotheses[std::size_t(i)];
+    const Eigen::VectorXd p = fit.p.segment(at, Eigen::Index(h.parameters.size()));
+    at += p.size();
+    const SignatureErrors& off = signature_errors_of(h.effect);
+    for (Eigen::Index c = 0; c < unsure.pieces; ++c)
+      unsure.sd[i * unsure.pieces + c] = share * off.parts[std::size_t(c) % kCourseParts];
+    unsure.sd[unsure.counts + i] = share * off.counts;
+    alone.push_back(unsure.effects == 1 ? fit.predicted : predict({effects_of(h, p)}).front());
+  }
+  unsure.sd.segment(unsure.clocks, unsure.leads - unsure.clocks).setConstant(scatter_.clock_s);
+  unsure.sd.tail(unsure.sd.size() - unsure.leads).setConstant(scatter_.lead_s);
+  const Eigen::Index more = unsure.sd.size();
+  Nuisances& n = model.nuisances_;
+  tbb::parallel_for(std::size_t(0), recording().runs.size(), [&](std::size_t r) {
+    const std::vector<CoursePart> parts = parts_of(nominal_, r);
+    UnsureRun run{Eigen::MatrixXd::Zero(3 * Eigen::Index(parts.size()), more),
+                  Impulses3(parts.size(), Eigen::Vector3d::Zero())};
+    Eigen::MatrixXd in_counts = Eigen::MatrixXd::Zero(kFeatureRows, more);
+    for (Eigen::Index i = 0; i < unsure.effects; ++i) {
+      const std::string& effect = fit.hypotheses[std::size_t(i)].effect;
+      const Predicted& with = alone[std::size_t(i)];
+      // How wheels slip under what is asked of them too much is each engine's own: of that, the motions themselves.
+      const Impulses3 added =
+          is_commanded_motion(effect) ? motions(nominal_.tracks[r]) : added_motions(nominal_.tracks[r], with.tracks[r]);
+      add_effect(unsure, i, r, filters_[r], parts, added, share * signature_errors_of(effect).motion, run);
+      in_counts.col(unsure.counts + i) = feature_rows(r, with, without_effects_, false);
+    }
+    add_clock(unsure, r, campaign_->part_of[r], filters_[r], moved.velocity[r], run);
+    model.filters_[r] = TrackFilter(nominal_.tracks[r], nominal_.rolled_m[r], noise(r), nominal_.seen[r],
+                                    nominal_.velocity[r], run.more);
+    n.tracks[r].conservativeResize(Eigen::NoChange, n.tracks[r].cols() + more);
+    n.tracks[r].rightCols(more) = run.columns;
+    n.shared[r].conservativeResize(Eigen::NoChange, n.shared[r].cols() + more);
+    n.shared[r].bottomRightCorner(kFeatureRows, more) = in_counts;
+  });
+  whiten_again(n, nominal_, model.filters_);
+  n.shared_sds = with_more(n.shared_sds, unsure.sd);
+  n.usual_sd = with_more({n.usual_sd}, unsure.sd).front();
+  n.unexplained_sd = with_zeros(n.unexplained_sd, more);
+  n.engine_sd = with_zeros(n.engine_sd, more);
+  model.products_of_nuisances_ = model.products_of_nuisances();
+  return model;
+}
+
+double Model::held_density(const Fit& fit) const {
+  return evidence(grams(residuals(fit.predicted), {}), all_runs(), first_columns(nuisances()), nuisance_sds())
+      .log_density;
+}
+
+}  // namespace umbsim::gap
