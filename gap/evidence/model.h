@@ -176,8 +176,8 @@ class Model {
   /// part of the course and condition of driving, and from motion to motion.
   Model unsure_of(const Fit& fit) const;
 
-  /// Log density of the data with a fit's numbers held where they are.
-  double held_density(const Fit& fit) const;
+  /// Log density of the data with a fit's numbers held where they are. `runs`: that count; empty: all.
+  double held_density(const Fit& fit, const std::vector<std::size_t>& runs = {}) const;
 
   /// Log density of the data with the hypotheses' numbers held at p, against none: how well a start would do. `runs`:
   /// that count, and are driven; empty: all.

@@ -32,26 +32,6 @@ std::vector<CoursePart> parts_of(const NominalReplay& nominal, std::size_t run) 
   return parts;
 }
 
-// What the effects add to each motion.
-Impulses3 added_motions(const std::vector<Pose2>& without, const std::vector<Pose2>& with) {
-  Impulses3 added(without.size(), Eigen::Vector3d::Zero());
-  for (std::size_t k = 1; k < without.size(); ++k) {
-    const Pose2 u = inverse(without[k - 1]) * without[k];
-    const Pose2 off = inverse(u) * (inverse(with[k - 1]) * with[k]);
-    added[k] = {off.x_m, off.y_m, off.theta_rad};
-  }
-  return added;
-}
-
-Impulses3 motions(const std::vector<Pose2>& path) {
-  Impulses3 all(path.size(), Eigen::Vector3d::Zero());
-  for (std::size_t k = 1; k < path.size(); ++k) {
-    const Pose2 u = inverse(path[k - 1]) * path[k];
-    all[k] = {u.x_m, u.y_m, u.theta_rad};
-  }
-  return all;
-}
-
 Eigen::VectorXd with_zeros(const Eigen::VectorXd& v, Eigen::Index more) {
   Eigen::VectorXd longer = Eigen::VectorXd::Zero(v.size() + more);
   longer.head(v.size()) = v;
@@ -144,8 +124,9 @@ Model Model::unsure_of(const Fit& fit) const {
       const std::string& effect = fit.hypotheses[std::size_t(i)].effect;
       const Predicted& with = alone[std::size_t(i)];
       // How wheels slip under what is asked of them too much is each engine's own: of that, the motions themselves.
-      const Impulses3 added =
-          is_commanded_motion(effect) ? motions(nominal_.tracks[r]) : added_motions(nominal_.tracks[r], with.tracks[r]);
+      const std::vector<Pose2> standing(parts.size());
+      const Impulses3 added = is_commanded_motion(effect) ? motion_errors(standing, nominal_.tracks[r])
+                                                          : motion_errors(nominal_.tracks[r], with.tracks[r]);
       add_effect(unsure, i, r, filters_[r], parts, added, share * signature_errors_of(effect).motion, run);
       in_counts.col(unsure.counts + i) = feature_rows(r, with, without_effects_, false);
     }
@@ -164,11 +145,6 @@ Model Model::unsure_of(const Fit& fit) const {
   n.engine_sd = with_zeros(n.engine_sd, more);
   model.products_of_nuisances_ = model.products_of_nuisances();
   return model;
-}
-
-double Model::held_density(const Fit& fit) const {
-  return evidence(grams(residuals(fit.predicted), {}), all_runs(), first_columns(nuisances()), nuisance_sds())
-      .log_density;
 }
 
 }  // namespace umbsim::gap

@@ -122,15 +122,18 @@ Fit Model::held(Fit fit) const {
   return fit;
 }
 
+double Model::held_density(const Fit& fit, const std::vector<std::size_t>& some) const {
+  const std::vector<std::size_t> runs = some.empty() ? all_runs() : some;
+  return evidence(grams(residuals(fit.predicted), {}), runs, first_columns(nuisances()), nuisance_sds()).log_density;
+}
+
 double Model::density_at(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& p,
                          const std::vector<std::size_t>& some) const {
   Fit fit;
   fit.hypotheses = hypotheses;
   fit.p = p;
-  const std::vector<std::size_t> runs = some.empty() ? all_runs() : some;
-  const Predicted predicted = predict({fit.effects()}, runs).front();
-  return evidence(grams(residuals(predicted), {}), runs, first_columns(nuisances()), nuisance_sds()).log_density +
-         log_chance(fit.effects());
+  fit.predicted = predict({fit.effects()}, some).front();
+  return held_density(fit, some) + log_chance(fit.effects());
 }
 
 double Model::another_engine(const Fit& fit) const {

@@ -37,6 +37,17 @@ Eigen::VectorXd track_error(const std::vector<Pose2>& predicted, const std::vect
   return error;
 }
 
+std::vector<Eigen::Vector3d> motion_errors(const std::vector<Pose2>& predicted, const std::vector<Pose2>& actual) {
+  const std::size_t n = std::min(predicted.size(), actual.size());
+  std::vector<Eigen::Vector3d> errors(n, Eigen::Vector3d::Zero());
+  for (std::size_t k = 1; k < n; ++k) {
+    const Pose2 foretold = inverse(predicted[k - 1]) * predicted[k];
+    const Pose2 wrong = inverse(foretold) * (inverse(actual[k - 1]) * actual[k]);
+    errors[k] = {wrong.x_m, wrong.y_m, wrong.theta_rad};
+  }
+  return errors;
+}
+
 TrackFilter::TrackFilter(const std::vector<Pose2>& path, const std::vector<double>& rolled_m, const NoiseModel& noise,
                          const std::vector<bool>& observed, const std::vector<Eigen::Vector3d>& velocity,
                          const std::vector<Eigen::Vector3d>& more) {
@@ -76,11 +87,10 @@ TrackFilter::TrackFilter(const std::vector<Pose2>& path, const std::vector<doubl
 Eigen::VectorXd TrackFilter::error(const std::vector<Pose2>& predicted, const std::vector<Pose2>& actual) const {
   Eigen::VectorXd error = track_error(predicted, actual);
   if (!sees_headings_) return error;
-  for (std::size_t k = 1; k < steps_.size(); ++k) {
-    const Pose2 foretold = inverse(predicted[k - 1]) * predicted[k];
-    const Pose2 wrong = inverse(foretold) * (inverse(actual[k - 1]) * actual[k]);
-    const auto at = [&](std::size_t sample) { return error.segment<3>(3 * Eigen::Index(sample)); };
-    at(k) = steps_[k].transition * at(k - 1) + Eigen::Vector3d(wrong.x_m, wrong.y_m, wrong.theta_rad);
+  const std::vector<Eigen::Vector3d> motions = motion_errors(predicted, actual);
+  for (Eigen::Index k = 1; k < Eigen::Index(steps_.size()); ++k) {
+    error.segment<3>(3 * k) =
+        steps_[std::size_t(k)].transition * error.segment<3>(3 * (k - 1)) + motions[std::size_t(k)];
   }
   return error;
 }

@@ -31,6 +31,10 @@ Eigen::Matrix3d error_transition(const Pose2& u);
 /// Log of the pose error: rows 3k..3k+2 are X_predicted^-1 X_true of sample k.
 Eigen::VectorXd track_error(const std::vector<Pose2>& predicted, const std::vector<Pose2>& actual);
 
+/// What each motion of `actual` does beyond that of `predicted`, in the predicted robot's frame: per sample, of the
+/// motion before it.
+std::vector<Eigen::Vector3d> motion_errors(const std::vector<Pose2>& predicted, const std::vector<Pose2>& actual);
+
 /// A Kalman filter along one run. Errors of the pose grow by the noise model and are seen through the tracker's noise;
 /// the innovations, each over its own standard deviation, are white if the model is right. The filter is linear: any
 /// column of track errors (a residual, or what an effect would do) is whitened alike.

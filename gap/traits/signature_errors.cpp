@@ -4,10 +4,9 @@
 
 namespace umbsim::gap {
 
-// Measured on MuJoCo's recordings of single effects (bench/worlds/lists/mujoco_67.yaml): the true effect is fitted
-// alone with a number of its own for each part of the course and condition of driving; this is how far these numbers
-// scatter about their mean beyond what they are known to, rounded. What motions err by is set by hand. docs/gap.md,
-// "Beside another effect".
+// What parts of the course err by was measured on MuJoCo's recordings of single effects
+// (bench/worlds/lists/mujoco_67.yaml), for the effects that show there; the rest, motions and counts are set by hand.
+// docs/gap-method.md, "Beside what is there already".
 const SignatureErrors& signature_errors_of(const std::string& effect) {
   static const SignatureErrors rolling{{0.01, 0.01, 0.01, 0.01}, 0.01, 0.1};
   // clang-format off

@@ -6,9 +6,9 @@
 
 #include "calibration/intake/intake.h"
 #include "gap/answer/closure.h"
-#include "gap/search/drivable.h"
 #include "gap/noise/clock.h"
 #include "gap/output/diagnosis_json.h"
+#include "gap/search/drivable.h"
 #include "tests/gap/subject.h"
 
 namespace umbsim::gap {
