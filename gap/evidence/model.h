@@ -13,6 +13,7 @@
 #include "gap/replay/command_response.h"
 #include "gap/replay/nominal_replay.h"
 #include "gap/replay/simulator.h"
+#include "gap/traits/signature_errors.h"
 #include "recording/command_features.h"
 #include "recording/recording.h"
 #include "recording/stretches.h"
@@ -174,7 +175,7 @@ class Model {
 
   /// This model with the signatures of a fit's effects as unsure as they are in another engine and on other tyres: by
   /// part of the course and condition of driving, and from motion to motion.
-  Model unsure_of(const Fit& fit) const;
+  Model unsure_of(const Fit& fit, const ErrorsOf& errors = signature_errors_of) const;
 
   /// Log density of the data with a fit's numbers held where they are. `runs`: that count; empty: all.
   double held_density(const Fit& fit, const std::vector<std::size_t>& runs = {}) const;

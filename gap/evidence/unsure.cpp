@@ -1,10 +1,13 @@
 // A model in which the signatures of a fit's effects may be off, as they are in other engines and on other tyres.
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "gap/evidence/model.h"
+#include "gap/evidence/signature_shares.h"
 #include "gap/replay/run_groups.h"
 #include "gap/traits/signature_errors.h"
 
@@ -94,7 +97,7 @@ void add_clock(const Unsure& unsure, std::size_t run, std::size_t tracker, const
 
 }  // namespace
 
-Model Model::unsure_of(const Fit& fit) const {
+Model Model::unsure_of(const Fit& fit, const ErrorsOf& errors) const {
   Model model = *this;
   const double share = same_engine(fit) ? scatter_.same_engine : 1;
   const NominalReplay moved = gap::beside(*campaign_, fit.predicted.tracks);
@@ -105,7 +108,7 @@ Model Model::unsure_of(const Fit& fit) const {
     const Hypothesis& h = fit.hypotheses[std::size_t(i)];
     const Eigen::VectorXd p = fit.p.segment(at, Eigen::Index(h.parameters.size()));
     at += p.size();
-    const SignatureErrors& off = signature_errors_of(h.effect);
+    const SignatureErrors off = errors(h.effect);
     for (Eigen::Index c = 0; c < unsure.pieces; ++c)
       unsure.sd[i * unsure.pieces + c] = share * off.parts[std::size_t(c) % kCourseParts];
     unsure.sd[unsure.counts + i] = share * off.counts;
@@ -127,7 +130,7 @@ Model Model::unsure_of(const Fit& fit) const {
       const std::vector<Pose2> standing(parts.size());
       const Impulses3 added = is_commanded_motion(effect) ? motion_errors(standing, nominal_.tracks[r])
                                                           : motion_errors(nominal_.tracks[r], with.tracks[r]);
-      add_effect(unsure, i, r, filters_[r], parts, added, share * signature_errors_of(effect).motion, run);
+      add_effect(unsure, i, r, filters_[r], parts, added, share * errors(effect).motion, run);
       in_counts.col(unsure.counts + i) = feature_rows(r, with, without_effects_, false);
     }
     add_clock(unsure, r, campaign_->part_of[r], filters_[r], moved.velocity[r], run);
@@ -145,6 +148,37 @@ Model Model::unsure_of(const Fit& fit) const {
   n.engine_sd = with_zeros(n.engine_sd, more);
   model.products_of_nuisances_ = model.products_of_nuisances();
   return model;
+}
+
+SignatureShares signature_shares(const Model& model, const Fit& fit, double motion) {
+  constexpr double kWide = 1;
+  const auto wide = [&](const std::string&) {
+    return SignatureErrors{{kWide, kWide, kWide, kWide}, motion, kWide};
+  };
+  const Model unsure = model.unsure_of(fit, wide);
+  const Evidence e = evidence(unsure.grams(unsure.residuals(fit.predicted), {}), unsure.all_runs(),
+                              first_columns(unsure.nuisances()), unsure.nuisance_sds());
+  const std::size_t groups = grouped(model.recording().runs, model.nominal().origin).rolling.size();
+  const Eigen::Index n = Eigen::Index(kCourseParts * groups) + 1;
+  const Eigen::Index first = model.nuisances();
+  SignatureShares shares;
+  for (std::size_t i = 0; i < kCourseParts * groups; ++i) shares.part.push_back(i % kCourseParts);
+  shares.part.push_back(kCourseParts);
+  // Of the posterior what the prior brought is taken out again.
+  const Eigen::MatrixXd known = e.covariance.block(first, first, n, n).inverse();
+  shares.precision = known - Eigen::MatrixXd::Identity(n, n) / (kWide * kWide);
+  shares.pull = known * e.mean.segment(first, n);
+  shares.log_density = e.log_density - shares.gain(Eigen::VectorXd::Constant(n, kWide));
+  for (const std::size_t r : unsure.all_runs()) shares.log_density -= unsure.filter(r).log_det() / 2;
+  return shares;
+}
+
+double SignatureShares::gain(const Eigen::VectorXd& sd) const {
+  Eigen::MatrixXd m = sd.asDiagonal() * precision * sd.asDiagonal();
+  m.diagonal().array() += 1;
+  const Eigen::LLT<Eigen::MatrixXd> llt(m);
+  const Eigen::VectorXd pulled = sd.cwiseProduct(pull);
+  return pulled.dot(llt.solve(pulled)) / 2 - llt.matrixLLT().diagonal().array().log().sum();
 }
 
 }  // namespace umbsim::gap

@@ -117,6 +117,8 @@ Fit Model::none() const {
 Fit Model::held(Fit fit) const {
   const Evidence e =
       evidence(grams(residuals(fit.predicted), {}), all_runs(), first_columns(nuisances()), nuisance_sds());
+  fit.residual = e.residual;
+  fit.misfit = e.misfit;
   fit.nuisance = e.mean;
   fit.prior = e.prior;
   return fit;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <string>
 
 namespace umbsim::gap {
@@ -24,6 +25,8 @@ struct SignatureErrors {
 };
 
 /// Of a name that is no effect's, and of effects whose signature follows from rolling alone: hundredths.
-const SignatureErrors& signature_errors_of(const std::string& effect);
+SignatureErrors signature_errors_of(const std::string& effect);
+
+using ErrorsOf = std::function<SignatureErrors(const std::string& effect)>;
 
 }  // namespace umbsim::gap

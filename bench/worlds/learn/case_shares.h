@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gap/evidence/signature_shares.h"
+#include "gap/trial/write/answers.h"
+#include "gap/trial/write/trial_folder.h"
+
+namespace umbsim::worlds {
+
+/// Shares of single motions that are tried (SignatureErrors::motion).
+inline const std::vector<double> kMotions{0, 0.01, 0.03, 0.1, 0.3, 1};
+
+/// What one case says of by how much its effect's signature is off.
+struct CaseShares {
+  std::string name;
+  std::string effect;
+  std::string engine;
+  std::vector<gap::SignatureShares> by_motion;  ///< as kMotions; empty: the effect could not be fitted
+};
+
+/// Fits the effect that is in a recording, alone, and looks at the pieces of its signature. `excluded` from the
+/// catalogue is all else.
+CaseShares look_at_case(const TrialFolder& folder, const std::string& name, const std::string& effect,
+                        const std::string& engine);
+
+Json shares_json(const CaseShares& shares);
+CaseShares read_shares(const Json& json);
+
+/// Looks at every case of a single effect of the catalogue that was not looked at before; keeps what it finds under
+/// shares/ of the folder. `jobs`: cases at the same time; 0: one per core. Throws InputError.
+std::vector<CaseShares> look_at_cases(const TrialFolder& folder, int jobs);
+
+}  // namespace umbsim::worlds
