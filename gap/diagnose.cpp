@@ -45,7 +45,7 @@ Diagnosis diagnosed(const Model& model, const std::set<std::string>& excluded, c
   const Context context{model, screen, excluded, t, none, left_unexplained(model, none, t)};
   detect(context, d);
   Fit best = d.causes.front().fit;
-  const LeftUnexplained left = left_unexplained(model, best, t);
+  const LeftUnexplained left = left_beside(model, best, t);
   d.unexplained = d.detected && left.all() > t.detect;
   d.unexplained_p = chi_squared_tail(2 * std::max(0.0, left.all()), 2);
   if (d.detected) explain(context, left, best, d);

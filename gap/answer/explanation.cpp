@@ -174,8 +174,7 @@ void explain(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis
   const bool hidden = hidden_in_noise(w, best, d.closure);
   if (hidden && !name_beside_noise(w, best, d)) return;
   const bool unknown = !hidden && !worth_more_than_rest(w.model, best, d.closure) &&
-                       is_unknown(w.model, best, w.explained_by(best), d.closure, left, w.left_by_none, t) &&
-                       !named_without_fit(w, left, best, d);
+                       is_unknown(left, w.explained_by(best), t) && !named_without_fit(w, left, best, d);
   add_unknown(w, best, unknown, left.all(), d);
   d.left_over = describe_left_over(w.model, best);
   d.explanation = best;

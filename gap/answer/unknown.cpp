@@ -37,12 +37,9 @@ double late_left(const Model& model, const Fit& fit, const Thresholds& t) {
   return std::max(0.0, late_gain(model, fit) - t.late);
 }
 
-// As a share of what is explained. A cable shakes each engine's robot in its own way; where a push, a patch or a hole
-// is named the rest of what happened there is its doing, too.
-double sudden_that_may_be_left(const Fit& fit, const Thresholds& t) {
-  const auto cable = [](const Hypothesis& f) { return is(f.effect, kCable); };
-  const bool shakes = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(), cable);
-  return fit.is_local() && !shakes ? t.sudden_beside_local : t.sudden_or_late_left;
+// Of what is left and explained together a share of s is left where s / (1 - s) of the explained is.
+double beside(double explained, double known, const Thresholds& t) {
+  return std::max(t.detect, (1 - known) / known * explained);
 }
 
 }  // namespace
@@ -54,15 +51,11 @@ LeftUnexplained left_unexplained(const Model& model, const Fit& fit, const Thres
           fit.hypotheses.empty() ? 0 : late_left(model, fit, t)};
 }
 
-double may_be_left(const Fit& fit, double explained, bool beside_contacts, const Thresholds& t) {
-  const auto scrubs = [](const Hypothesis& f) { return is(f.effect, kScrubs); };
-  const bool toed = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(), scrubs);
-  // Of what is left and explained together a share of s is left where s / (1 - s) of the explained is.
-  const auto beside = [&](double known_share) { return (1 - known_share) / known_share * std::max(0.0, explained); };
-  const double left = beside(toed ? t.known_share_of_toe : t.known_share);
-  return fit.is_kinematic() && !beside_contacts
-             ? std::min(left, std::max(t.left_by_rolling, beside(t.known_share_of_rolling)))
-             : left;
+double may_be_left(double explained, const Thresholds& t) { return beside(explained, t.known_share, t); }
+
+bool is_unknown(const LeftUnexplained& left, double explained, const Thresholds& t) {
+  return left.steady > may_be_left(explained, t) ||
+         std::max({left.lack, left.sudden, left.late}) > beside(explained, t.known_share_of_shakes, t);
 }
 
 double enough_to_detect(const std::vector<std::string>& effects, const Thresholds& t) {
@@ -74,16 +67,10 @@ double enough_to_detect(const std::vector<std::string>& effects, const Threshold
   return std::all_of(effects.begin(), effects.end(), same_for_all_engines) ? t.detect_rolling : t.detect;
 }
 
-bool is_unknown(const Model& model, const Fit& fit, double explained, const Closure& closure,
-                const LeftUnexplained& left, const LeftUnexplained& none, const Thresholds& t) {
-  const bool other_kind = std::max(left.sudden, left.late) > std::max(t.detect, t.sudden_or_late_left * explained) ||
-                          left.sudden > std::max(t.detect, sudden_that_may_be_left(fit, t) * explained);
-  const bool foretells = !closure.known || closure.ci95[1] > t.least_closure;
-  const bool hidden = closure.known && closure.after_mm <= closure.most_noise_mm;
-  const bool little = left.steady > may_be_left(fit, explained, hidden && !model.same_engine(fit), t);
-  const bool much = explained > t.most_left * left.all();
-  return other_kind ||
-         (left.all() > t.detect && (!(foretells || much) || little || left.lack > t.misfit_left * none.lack));
+LeftUnexplained left_beside(const Model& model, const Fit& fit, const Thresholds& t) {
+  if (fit.hypotheses.empty()) return left_unexplained(model, fit, t);
+  const Model unsure = model.unsure_of(fit);
+  return left_unexplained(unsure, unsure.held(fit), t);
 }
 
 }  // namespace umbsim::gap

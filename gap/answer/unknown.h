@@ -19,17 +19,18 @@ struct LeftUnexplained {
 
 LeftUnexplained left_unexplained(const Model& model, const Fit& fit, const Thresholds& thresholds);
 
-/// Log evidence that an explanation may leave before it is called unknown, if it explains `explained`.
-/// What is kinematic leaves next to nothing, unless it stands `beside_contacts` of another engine, which leave
-/// something beside any effect.
-double may_be_left(const Fit& fit, double explained, bool beside_contacts, const Thresholds& thresholds);
+/// What a fit leaves that neither the catalogue explains nor what its own effects may do otherwise in another engine
+/// (Model::unsure_of).
+LeftUnexplained left_beside(const Model& model, const Fit& fit, const Thresholds& thresholds);
+
+/// Log evidence that an explanation may leave so before it is called unknown, if it explains `explained`.
+double may_be_left(double explained, const Thresholds& thresholds);
+
+/// Whether what is left says that the cause is another one.
+bool is_unknown(const LeftUnexplained& left, double explained, const Thresholds& thresholds);
 
 /// Log evidence, with prior costs, that effects need to be named on recordings of this engine where there might be no
 /// gap at all.
 double enough_to_detect(const std::vector<std::string>& effects, const Thresholds& thresholds);
-
-/// Whether what a fit leaves says that it is not the cause. `closure`: of the fit; `none`: what no effect leaves.
-bool is_unknown(const Model& model, const Fit& fit, double explained, const Closure& closure,
-                const LeftUnexplained& left, const LeftUnexplained& none, const Thresholds& thresholds);
 
 }  // namespace umbsim::gap

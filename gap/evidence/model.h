@@ -175,7 +175,9 @@ class Model {
 
   /// This model with the signatures of a fit's effects as unsure as they are in another engine and on other tyres: by
   /// part of the course and condition of driving, and from motion to motion.
-  Model unsure_of(const Fit& fit, const ErrorsOf& errors = signature_errors_of) const;
+  Model unsure_of(const Fit& fit) const;
+  /// The same with other errors of signatures, as they are given.
+  Model unsure_of(const Fit& fit, const ErrorsOf& errors) const;
 
   /// Log density of the data with a fit's numbers held where they are. `runs`: that count; empty: all.
   double held_density(const Fit& fit, const std::vector<std::size_t>& runs = {}) const;

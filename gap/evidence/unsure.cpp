@@ -97,9 +97,19 @@ void add_clock(const Unsure& unsure, std::size_t run, std::size_t tracker, const
 
 }  // namespace
 
+Model Model::unsure_of(const Fit& fit) const {
+  const double share = same_engine(fit) ? scatter_.same_engine : 1;
+  return unsure_of(fit, [&](const std::string& effect) {
+    SignatureErrors off = signature_errors_of(effect);
+    for (double& part : off.parts) part *= share;
+    off.motion *= share;
+    off.counts *= share;
+    return off;
+  });
+}
+
 Model Model::unsure_of(const Fit& fit, const ErrorsOf& errors) const {
   Model model = *this;
-  const double share = same_engine(fit) ? scatter_.same_engine : 1;
   const NominalReplay moved = gap::beside(*campaign_, fit.predicted.tracks);
   Unsure unsure(fit.hypotheses.size(), grouped(recording().runs, nominal_.origin), campaign_->parts.size());
   std::vector<Predicted> alone;
@@ -110,8 +120,8 @@ Model Model::unsure_of(const Fit& fit, const ErrorsOf& errors) const {
     at += p.size();
     const SignatureErrors off = errors(h.effect);
     for (Eigen::Index c = 0; c < unsure.pieces; ++c)
-      unsure.sd[i * unsure.pieces + c] = share * off.parts[std::size_t(c) % kCourseParts];
-    unsure.sd[unsure.counts + i] = share * off.counts;
+      unsure.sd[i * unsure.pieces + c] = off.parts[std::size_t(c) % kCourseParts];
+    unsure.sd[unsure.counts + i] = off.counts;
     alone.push_back(unsure.effects == 1 ? fit.predicted : predict({effects_of(h, p)}).front());
   }
   unsure.sd.segment(unsure.clocks, unsure.leads - unsure.clocks).setConstant(scatter_.clock_s);
@@ -130,7 +140,7 @@ Model Model::unsure_of(const Fit& fit, const ErrorsOf& errors) const {
       const std::vector<Pose2> standing(parts.size());
       const Impulses3 added = is_commanded_motion(effect) ? motion_errors(standing, nominal_.tracks[r])
                                                           : motion_errors(nominal_.tracks[r], with.tracks[r]);
-      add_effect(unsure, i, r, filters_[r], parts, added, share * errors(effect).motion, run);
+      add_effect(unsure, i, r, filters_[r], parts, added, errors(effect).motion, run);
       in_counts.col(unsure.counts + i) = feature_rows(r, with, without_effects_, false);
     }
     add_clock(unsure, r, campaign_->part_of[r], filters_[r], moved.velocity[r], run);
@@ -152,9 +162,7 @@ Model Model::unsure_of(const Fit& fit, const ErrorsOf& errors) const {
 
 SignatureShares signature_shares(const Model& model, const Fit& fit, double motion) {
   constexpr double kWide = 1;
-  const auto wide = [&](const std::string&) {
-    return SignatureErrors{{kWide, kWide, kWide, kWide}, motion, kWide};
-  };
+  const auto wide = [&](const std::string&) { return SignatureErrors{{kWide, kWide, kWide, kWide}, motion, kWide}; };
   const Model unsure = model.unsure_of(fit, wide);
   const Evidence e = evidence(unsure.grams(unsure.residuals(fit.predicted), {}), unsure.all_runs(),
                               first_columns(unsure.nuisances()), unsure.nuisance_sds());

@@ -23,21 +23,15 @@ struct Thresholds {
   double variant = 8;              ///< log evidence within which another wheel of the same effect may take part
   double tie = 6;                  ///< log evidence within which two explanations are not told apart
   double top = 1e-4;  ///< and, of a place or moment, the share of its evidence to which the search finds its top
-  double known_share = 0.93;  ///< of the explainable evidence that named effects must explain, or the cause is unknown
-  double known_share_of_toe = 0.7;       ///< the same of toed wheels, whose scrub depends on tyres that nobody knows
-  double known_share_of_rolling = 0.99;  ///< the same of what follows from rolling and counting, whatever the contact,
-  double left_by_rolling = 12;           ///< where this much log evidence is left
-  double least_closure = 0.3;            ///< that the held-out closure's interval must reach,
-  double most_left = 0.5;                ///< where what is explained is less than this share of what is left
-  double misfit_left = 0.68;             ///< of the misfit beyond the noise, above which the cause is unknown, too
-  double sudden = 40;  ///< log evidence of what is sudden, at a place or a moment, that a difference of engines makes,
-  double late = 150;   ///< and the same of readings that do not go with the counts
-  double sudden_or_late_left = 0.5;   ///< share of what is explained that may be left of these,
-  double sudden_beside_local = 0.12;  ///< and of what is sudden, where a place or moment is named that is no cable
-  double faint = 0.05;                ///< p-value of a single effect, below which it is in the set beside "none"
-  double plainly_shown = 100;         ///< log evidence of counts and commands that leaves no doubt
-  double beside_floor = 0.05;         ///< share of the misfit that an effect beside an uneven floor must explain
-  double place_beside_floor = 0.3;    ///< the same of a place or moment
+  double known_share = 0.99;  ///< of the explainable evidence that named effects must explain, or the cause is unknown,
+  double known_share_of_shakes =
+      0.67;             ///< and beside what scatters, or is sudden or late: engines shake robots otherwise
+  double sudden = 40;   ///< log evidence of what is sudden, at a place or a moment, that a difference of engines makes,
+  double late = 150;    ///< and the same of readings that do not go with the counts
+  double faint = 0.05;  ///< p-value of a single effect, below which it is in the set beside "none"
+  double plainly_shown = 100;       ///< log evidence of counts and commands that leaves no doubt
+  double beside_floor = 0.05;       ///< share of the misfit that an effect beside an uneven floor must explain
+  double place_beside_floor = 0.3;  ///< the same of a place or moment
   int most_effects = 3;
 };
 

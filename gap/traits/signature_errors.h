@@ -24,7 +24,8 @@ struct SignatureErrors {
   double counts = 0;  ///< of what counts against commands show of it
 };
 
-/// Of a name that is no effect's, and of effects whose signature follows from rolling alone: hundredths.
+/// As learned (`umbsim_worlds learn`). Of effects whose signature follows from rolling alone, and of a name that is no
+/// effect's: hundredths.
 SignatureErrors signature_errors_of(const std::string& effect);
 
 using ErrorsOf = std::function<SignatureErrors(const std::string& effect)>;

@@ -34,7 +34,7 @@ const std::vector<Traits>& table() {
       {"caster_drag", "legs", 0, kCaster},
       {"slippery_floor", "turns", kThreshold, kSlip},
       {"slippery_patch", "place", kOfAPlace | kDisc | kThreshold, kPlace},
-      {"bump", "place", kOfAPlace | kCable},
+      {"bump", "place", kOfAPlace},
       {"uneven_floor", "place"},
       {"floor_slope", "world_direction"},
       {"carpet_drift", "world_direction"},

@@ -27,13 +27,12 @@ enum Is : unsigned {
   kCommandedMotion = 4,   ///< what was asked of the robot, beyond the course
   kOfAPlace = 8,          ///< searched for at a place, or at a moment
   kDisc = 16,             ///< of these, felt within a radius alone
-  kCable = 32,            ///< of these, shakes each engine's robot in its own way
-  kScrubs = 64,           ///< of tyres that nobody knows
-  kByChance = 128,        ///< the runs scatter by it
-  kByRun = 256,           ///< it grows from run to run
-  kLikeADimension = 512,  ///< does what a dimension does, and engines differ in it by no more
-  kThreshold = 1024,      ///< nothing, until it lets go: tried at several strengths
-  kFromWhatShows = 2048,  ///< linear only about what the counts show
+  kScrubs = 32,           ///< of tyres that nobody knows
+  kByChance = 64,         ///< the runs scatter by it
+  kByRun = 128,           ///< it grows from run to run
+  kLikeADimension = 256,  ///< does what a dimension does, and engines differ in it by no more
+  kThreshold = 512,       ///< nothing, until it lets go: tried at several strengths
+  kFromWhatShows = 1024,  ///< linear only about what the counts show
 };
 
 /// Where the commands and counts show an effect: a number of CommandFeatures, and what it then lies between.

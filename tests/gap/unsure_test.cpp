@@ -1,8 +1,11 @@
 // A model in which what an effect does is unsure, as it is from engine to engine.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <cmath>
 #include <cstdio>
 
+#include "gap/evidence/signature_shares.h"
 #include "tests/gap/subject.h"
 
 namespace umbsim::gap {
@@ -33,7 +36,9 @@ TEST(UnsureModel, ForgivesWhatTheEffectsOfAFitMayDoOtherwise) {
   ASSERT_EQ(toed.size(), 1u);
   const Fit fit = model.fit(toed);
   ASSERT_NEAR(fit.p[0], kToe_rad, 0.1 * kToe_rad);
-  const Model unsure = model.unsure_of(fit);
+  const Model unsure = model.unsure_of(fit, [](const std::string&) {
+    return SignatureErrors{{0.3, 0.3, 0.6, 1.5}, 0.3, 0.1};
+  });
   const std::vector<Effect> toed_more{effect("wheel_misalignment", {{"right_toe_rad", 1.5 * fit.p[0]}})};
   const std::vector<Effect> wider{effect("wheel_misalignment", {{"right_toe_rad", fit.p[0]}}),
                                   effect("wheelbase", {{"relative", 0.02}})};
@@ -45,6 +50,40 @@ TEST(UnsureModel, ForgivesWhatTheEffectsOfAFitMayDoOtherwise) {
   EXPECT_LT(unsure_toe, 0.2 * toe);
   EXPECT_GT(base, 100);
   EXPECT_GT(unsure_base, 0.3 * base);
+}
+
+// Held at four fifths of its size an effect that acts in proportion does a quarter more than it should, in whatever
+// part of the course it shows.
+TEST(SignatureShares, SayByHowMuchEachPieceIsOff) {
+  Scenario s = testing::squares(2, 2);
+  testing::add_noise(s, 11);
+  s.effects = {effect("wheelbase", {{"relative", 0.03}})};
+  const Subject subject(run_experiment(s, 0).recording);
+  std::vector<Hypothesis> wider = plain_hypotheses(0.02, 2000);
+  std::erase_if(wider, [](const Hypothesis& h) { return h.effect != "wheelbase"; });
+  const Fit fit = subject.model.fit(wider);
+  Fit less = fit;
+  less.p *= 0.8;
+  less.predicted = subject.model.predict({less.effects()}).front();
+  const SignatureShares shares = signature_shares(subject.model, less, 0);
+  const Eigen::Index n = Eigen::Index(shares.part.size());
+  ASSERT_EQ(shares.precision.rows(), n);
+  const Eigen::MatrixXd covariance = (shares.precision + Eigen::MatrixXd::Identity(n, n)).inverse();
+  const Eigen::VectorXd off = covariance * shares.pull;
+  int known = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double sd = std::sqrt(covariance(i, i));
+    std::printf("piece %d, part %d: %.3f +- %.3f\n", int(i), int(shares.part[std::size_t(i)]), off[i], sd);
+    if (sd > 0.05) continue;
+    ++known;
+    EXPECT_NEAR(off[i], 0.25, 3 * sd);
+  }
+  EXPECT_GE(known, 1);
+  const Eigen::VectorXd tenths = Eigen::VectorXd::Constant(n, 0.3);
+  std::printf("pieces that are off gain %.1f, those of the fit %.1f\n", shares.gain(tenths),
+              signature_shares(subject.model, fit, 0).gain(tenths));
+  EXPECT_GT(shares.gain(tenths), 50);
+  EXPECT_LT(signature_shares(subject.model, fit, 0).gain(tenths), 0);
 }
 
 }  // namespace

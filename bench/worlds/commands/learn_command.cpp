@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 
 #include "bench/worlds/commands/commands.h"
 #include "bench/worlds/learn/learn.h"
-#include "core/error.h"
+#include "gap/trial/write/seal.h"
 
 namespace umbsim::worlds {
 namespace {
@@ -13,22 +14,39 @@ namespace {
 struct Arguments {
   std::vector<std::string> folders;
   std::vector<std::string> without;
+  std::string out;
   int jobs = 0;
 };
 
+// A row of the table, as clang-format leaves it.
+std::string row(const std::string& effect, const LearnedErrors& learned) {
+  const gap::SignatureErrors& e = learned.errors;
+  return fmt::format("{{\"{}\", {{{{{}, {}, {}, {}}}, {}, {}}}}},  // {} cases, gain {:.0f}\n", effect, e.parts[0],
+                     e.parts[1], e.parts[2], e.parts[3], e.motion, e.counts, learned.cases, learned.gain);
+}
+
 void learn(const Arguments& a) {
   std::vector<CaseShares> cases;
+  std::map<std::string, int> engines;
+  std::string table =
+      "// Written by `umbsim_worlds learn` (docs/worlds.md), from folders whose answers have these hashes:\n";
   for (const std::string& folder : a.folders) {
-    for (CaseShares& c : look_at_cases(TrialFolder(folder), a.jobs)) {
-      if (std::count(a.without.begin(), a.without.end(), c.engine) == 0) cases.push_back(std::move(c));
+    const TrialFolder worlds(folder);
+    table += fmt::format("// {} {}\n", read_seal(worlds).value_or("not sealed"),
+                         read_json(worlds.answers()).at("trial").get<std::string>());
+    for (CaseShares& c : look_at_cases(worlds, a.jobs)) {
+      if (std::count(a.without.begin(), a.without.end(), c.engine) > 0) continue;
+      ++engines[c.engine];
+      cases.push_back(std::move(c));
     }
   }
-  fmt::print("// {:24} speeding leg    in place arc    motion counts\n", "effect");
-  for (const auto& [effect, learned] : learned_by_effect(cases)) {
-    const gap::SignatureErrors& e = learned.errors;
-    fmt::print("{{\"{}\", {:{}}{{{{{:.3f}, {:.3f}, {:.3f}, {:.3f}}}, {:.2f}, {:.3f}}}}},  // {} cases, gain {:.0f}\n", effect,
-               "", 24 - std::min<std::size_t>(24, effect.size()), e.parts[0], e.parts[1], e.parts[2], e.parts[3],
-               e.motion, e.counts, learned.cases, learned.gain);
+  for (const auto& [engine, count] : engines) table += fmt::format("// {} cases in {}\n", count, engine);
+  table += "// effect, speeding, leg, in place, arc; motion; counts\n";
+  for (const auto& [effect, learned] : learned_by_effect(cases)) table += row(effect, learned);
+  if (a.out.empty()) {
+    fmt::print("{}", table);
+  } else {
+    write_file_whole(a.out, table);
   }
 }
 
@@ -41,6 +59,7 @@ void add_learn_command(CLI::App& app) {
   command->add_option("folders", a->folders, "Folders of worlds, drawn and sealed")->required();
   command->add_option("--without", a->without, "Engine that nothing is learned from (repeatable)")
       ->allow_extra_args(false);
+  command->add_option("-o,--out", a->out, "File of the table; default: it is printed");
   command->add_option("-j,--jobs", a->jobs, "Cases at the same time; 0: one per core")->check(CLI::Range(0, 1024));
   command->callback([a] { learn(*a); });
 }

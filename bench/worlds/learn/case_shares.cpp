@@ -11,6 +11,7 @@
 #include "core/progress.h"
 #include "effects/catalogue.h"
 #include "gap/search/search.h"
+#include "gap/traits/traits.h"
 
 namespace umbsim::worlds {
 namespace {
@@ -31,6 +32,11 @@ fs::path shares_file(const TrialFolder& folder, const std::string& name) {
 
 Json numbers(const Eigen::MatrixXd& m) { return std::vector<double>(m.data(), m.data() + m.size()); }
 
+// What follows from rolling alone is the same in every engine.
+bool only_rolls(const std::string& effect) {
+  return gap::is_dimension(effect) || effect == "wear" || effect == "carpet_drift";
+}
+
 // What is wrong in a case, and in which engine: only cases of one effect that the diagnosis knows.
 struct Known {
   std::string name, effect, engine;
@@ -40,7 +46,8 @@ std::vector<Known> known_cases(const TrialFolder& folder) {
   std::vector<Known> known;
   const Json answers = read_json(folder.answers());
   for (const auto& [name, answer] : read_answers(folder.answers())) {
-    if (answer.tier != Tier::single || answer.effects.size() != 1) continue;
+    if (answer.tier != Tier::single || answer.effects.size() != 1 || only_rolls(answer.effects.begin()->first))
+      continue;
     known.push_back({name, answer.effects.begin()->first, answers.at("cases").at(name).at("world").at("engine")});
   }
   return known;

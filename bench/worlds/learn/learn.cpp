@@ -1,53 +1,55 @@
 #include "bench/worlds/learn/learn.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <array>
 #include <cmath>
 
 namespace umbsim::worlds {
 namespace {
 
-constexpr std::size_t kKinds = gap::kCourseParts + 1;  // the last: counts
-constexpr double kUsual = 0.1;                         // of a piece of which nothing is known
-constexpr double kUsualPieces = 2;                     // for which that counts
-constexpr int kRounds = 300;
+constexpr std::size_t kKinds = gap::kCourseParts + 1;                                           // the last: counts
+constexpr std::array<double, 10> kSizes{0.003, 0.01, 0.02, 0.03, 0.06, 0.1, 0.2, 0.3, 0.6, 1};  // as fine as is known
+constexpr double kUsual = 0.1;
+constexpr double kWithin = 3;  // a factor: standard deviation of its logarithm
 
-using Variances = std::array<double, kKinds>;
+using Sizes = std::array<double, kKinds>;
+using Seen = std::vector<const gap::SignatureShares*>;
 
-Eigen::VectorXd sd_of(const gap::SignatureShares& s, const Variances& variances) {
-  Eigen::VectorXd sd(Eigen::Index(s.part.size()));
-  for (std::size_t i = 0; i < s.part.size(); ++i) sd[Eigen::Index(i)] = std::sqrt(variances[s.part[i]]);
-  return sd;
+double density(const Seen& all, const Sizes& sizes) {
+  double sum = 0;
+  for (const gap::SignatureShares* s : all) {
+    Eigen::VectorXd sd(Eigen::Index(s->part.size()));
+    for (std::size_t i = 0; i < s->part.size(); ++i) sd[Eigen::Index(i)] = sizes[s->part[i]];
+    sum += s->log_density + s->gain(sd);
+  }
+  return sum;
 }
 
-// Expectation of the squared shares under the variances so far, then variances that go with these (Dempster, Laird &
-// Rubin 1977).
-Variances next(const std::vector<const gap::SignatureShares*>& all, const Variances& now) {
-  Variances sum, count;
-  sum.fill(kUsualPieces * kUsual * kUsual);
-  count.fill(kUsualPieces);
-  for (const gap::SignatureShares* s : all) {
-    const Eigen::VectorXd sd = sd_of(*s, now);
-    Eigen::MatrixXd m = sd.asDiagonal() * s->precision * sd.asDiagonal();
-    m.diagonal().array() += 1;
-    const Eigen::MatrixXd covariance = sd.asDiagonal() * m.inverse() * sd.asDiagonal();
-    const Eigen::VectorXd mean = covariance * s->pull;
-    for (std::size_t i = 0; i < s->part.size(); ++i) {
-      const Eigen::Index at = Eigen::Index(i);
-      sum[s->part[i]] += mean[at] * mean[at] + covariance(at, at);
-      count[s->part[i]] += 1;
+double believed(const Seen& all, const Sizes& sizes) {
+  double prior = 0;
+  for (const double size : sizes) prior -= std::pow(std::log(size / kUsual) / std::log(kWithin), 2) / 2;
+  return density(all, sizes) + prior;
+}
+
+// One kind after the other, as long as any gets likelier.
+Sizes likeliest(const Seen& all) {
+  Sizes sizes;
+  sizes.fill(kUsual);
+  double most = believed(all, sizes);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t k = 0; k < kKinds; ++k) {
+      for (const double size : kSizes) {
+        Sizes other = sizes;
+        other[k] = size;
+        const double here = believed(all, other);
+        if (here <= most) continue;
+        most = here;
+        sizes = other;
+        changed = true;
+      }
     }
   }
-  Variances variances;
-  for (std::size_t k = 0; k < kKinds; ++k) variances[k] = sum[k] / count[k];
-  return variances;
-}
-
-double density(const std::vector<const gap::SignatureShares*>& all, const Variances& variances) {
-  double sum = 0;
-  for (const gap::SignatureShares* s : all) sum += s->log_density + s->gain(sd_of(*s, variances));
-  return sum;
+  return sizes;
 }
 
 }  // namespace
@@ -56,23 +58,21 @@ LearnedErrors learned(const std::vector<CaseShares>& cases) {
   LearnedErrors best;
   double most = -1e300, exact = 0;
   for (std::size_t j = 0; j < kMotions.size(); ++j) {
-    std::vector<const gap::SignatureShares*> all;
+    Seen all;
     for (const CaseShares& c : cases) {
       if (!c.by_motion.empty()) all.push_back(&c.by_motion[j]);
     }
     best.cases = all.size();
-    Variances variances;
-    variances.fill(kUsual * kUsual);
-    for (int round = 0; round < kRounds; ++round) variances = next(all, variances);
-    const double here = density(all, variances);
-    if (j == 0) exact = density(all, Variances{});
+    if (j == 0) exact = density(all, Sizes{});
+    const Sizes sizes = likeliest(all);
+    const double here = believed(all, sizes);
     if (here <= most) continue;
     most = here;
-    for (std::size_t k = 0; k < gap::kCourseParts; ++k) best.errors.parts[k] = std::sqrt(variances[k]);
-    best.errors.counts = std::sqrt(variances[gap::kCourseParts]);
+    for (std::size_t k = 0; k < gap::kCourseParts; ++k) best.errors.parts[k] = sizes[k];
+    best.errors.counts = sizes[gap::kCourseParts];
     best.errors.motion = kMotions[j];
+    best.gain = density(all, sizes) - exact;
   }
-  best.gain = most - exact;
   return best;
 }
 

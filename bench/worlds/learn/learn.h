@@ -16,8 +16,8 @@ struct LearnedErrors {
   double gain = 0;  ///< log density that they bring on these cases over a signature that is exact
 };
 
-/// Standard deviations by part, of counts and of single motions that make all cases of an effect likeliest. Each part is
-/// held towards a tenth as if two pieces had been seen there: where the data say nothing it is that.
+/// Standard deviations by part, of counts and of single motions that make all cases of an effect likeliest, on a grid
+/// of ten values. Each is thought to be a tenth within a factor of three before: where the data say nothing it is that.
 LearnedErrors learned(const std::vector<CaseShares>& cases);
 
 /// By effect.
