@@ -85,8 +85,9 @@ const std::map<std::string, Rooms> kRooms = {
        {"draw", {"world", "run"}},
        {"inject", {}},
        {"checks", {"engines"}},
+       {"learn", {}},
        {"score", {}},
-       {"commands", {"engines", "world", "run", "draw", "inject", "checks", "score"}}},
+       {"commands", {"engines", "world", "run", "draw", "inject", "checks", "learn", "score"}}},
       {}}},
 };
 /// A room holds few files of its own, sub-rooms not counted.
