@@ -24,7 +24,7 @@ struct SignatureErrors {
   double counts = 0;  ///< of what counts against commands show of it
 };
 
-/// As learned (`umbsim_worlds learn`). Of effects whose signature follows from rolling alone, and of a name that is no
+/// Of effects whose signature follows from rolling alone, and of a name that is no
 /// effect's: hundredths.
 SignatureErrors signature_errors_of(const std::string& effect);
 

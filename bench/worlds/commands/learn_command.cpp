@@ -55,7 +55,7 @@ void learn(const Arguments& a) {
 void add_learn_command(CLI::App& app) {
   const auto a = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "learn", "By how much each effect's signature is off in other engines: gap/traits/signature_errors.inc");
+      "learn", "By how much each effect's signature is off in other engines, from worlds whose answers are known");
   command->add_option("folders", a->folders, "Folders of worlds, drawn and sealed")->required();
   command->add_option("--without", a->without, "Engine that nothing is learned from (repeatable)")
       ->allow_extra_args(false);

@@ -1,9 +1,9 @@
 #include "bench/worlds/learn/case_shares.h"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <set>
 
 #include "cli/gap/gap_recordings.h"
@@ -48,7 +48,13 @@ std::vector<Known> known_cases(const TrialFolder& folder) {
   for (const auto& [name, answer] : read_answers(folder.answers())) {
     if (answer.tier != Tier::single || answer.effects.size() != 1 || only_rolls(answer.effects.begin()->first))
       continue;
-    known.push_back({name, answer.effects.begin()->first, answers.at("cases").at(name).at("world").at("engine")});
+    const Json& said = answers.at("cases").at(name);
+    if (!said.contains("world"))
+      throw InputError(
+          fmt::format("{}: case {} does not say in which world it was drawn; only folders of "
+                      "`umbsim_worlds draw` teach anything",
+                      folder.answers().string(), name));
+    known.push_back({name, answer.effects.begin()->first, said.at("world").at("engine")});
   }
   return known;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +20,7 @@ struct CaseShares {
   std::vector<gap::SignatureShares> by_motion;  ///< as kMotions; empty: the effect could not be fitted
 };
 
-/// Fits the effect that is in a recording, alone, and looks at the pieces of its signature. `excluded` from the
-/// catalogue is all else.
+/// Fits the effect that is in a recording, alone, and looks at the pieces of its signature.
 CaseShares look_at_case(const TrialFolder& folder, const std::string& name, const std::string& effect,
                         const std::string& engine);
 
