@@ -50,12 +50,9 @@ std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, con
   });
 }
 
-namespace {
-
-// The same where the hypothesis is driven alone, and what it changes is put on top of `base`: what happens at a place
-// hardly hangs on what else is wrong with the robot, and the place was driven without it, too.
-Density density_beside(const Model& model, const Fit& base, const Hypothesis& hypothesis,
-                       const std::vector<std::size_t>& some = {}) {
+std::function<double(const Eigen::VectorXd&)> density_beside(const Model& model, const Fit& base,
+                                                             const Hypothesis& hypothesis,
+                                                             const std::vector<std::size_t>& some) {
   if (base.hypotheses.empty()) return density_on(model, base, hypothesis, some);
   const std::vector<std::size_t> runs = some.empty() ? model.all_runs() : some;
   std::vector<Eigen::VectorXd> before = model.residuals(base.predicted);
@@ -71,6 +68,8 @@ Density density_beside(const Model& model, const Fit& base, const Hypothesis& hy
            model.log_chance(effects);
   });
 }
+
+namespace {
 
 // The top of the hill from one start; `closely`: a start that is near it.
 Eigen::VectorXd local_search(const Density& density, const Screen::Candidate& c, const Eigen::VectorXd& start,

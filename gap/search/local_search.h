@@ -14,6 +14,12 @@ std::function<double(const Eigen::VectorXd&)> density_on(const Model& model, con
                                                          const Hypothesis& hypothesis,
                                                          const std::vector<std::size_t>& runs = {});
 
+/// The same where the hypothesis is driven alone, and what it changes is put on top of `base`: what happens at a place,
+/// or where wheels let go, hardly hangs on what else is wrong with the robot, and it was driven without that, too.
+std::function<double(const Eigen::VectorXd&)> density_beside(const Model& model, const Fit& base,
+                                                             const Hypothesis& hypothesis,
+                                                             const std::vector<std::size_t>& runs = {});
+
 /// The candidate with the best few of its starts alone, best first, of each hill one. All are tried on the few runs
 /// that show most, and what does well there on all runs. Returns the best one's log density on top of `base`. Throws
 /// nothing for numbers with which the robot cannot be driven: they are the worst.

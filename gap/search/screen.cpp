@@ -11,7 +11,8 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr int kPastTheHill = 4;  // tries one after another that are each worse than the one before
+// Frictions that are tried, as logarithms below the first at which wheels slip: steps in proportion, up to a bound.
+constexpr double kFriction = 0.4, kMostFriction = 0.08, kSlippiest = 1.8;
 constexpr double kTryCost = 3;  // log of how many frictions are tried, and for the width of what is held where it shows
 
 // Effects on how the robot is driven and read are tried where counts or commands show them.
@@ -74,21 +75,16 @@ void Screen::simulate_steps() {
 }
 
 // Wheels let go all at once: no derivative says how much grip is missing, so that it is tried, in shares below the
-// friction at which this robot begins to slip on these runs. Some per cent less already moves it by many noise floors.
+// friction at which this robot begins to slip on these runs. Some per cent less already moves it by many noise floors,
+// and what explains most may lie far below, behind frictions that explain less than none.
 void Screen::try_frictions(const Fit& fit, Candidate& c) const {
   c.gain = -1e9;
   if (model_.slips_at() == 0) return;
-  const auto density = density_on(model_, fit, c.hypothesis, model_.one_of_each());
+  const auto density = density_beside(model_, fit, c.hypothesis, model_.one_of_each());
   double highest = -1e300;
-  double last = -1e300;
-  int down = 0;
-  for (const double less :
-       {-0.02, -0.01, 0.0, 0.01, 0.02, 0.035, 0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.6, 0.9, 1.3, 1.8, 2.5}) {
+  for (double less = -0.02; less < kSlippiest; less += std::clamp(kFriction * less, 0.01, kMostFriction)) {
     const double friction = model_.slips_at() * std::exp(-less);
     const double there = density(Eigen::VectorXd::Constant(1, friction));
-    down = there < last ? down + 1 : 0;
-    last = there;
-    if (down == kPastTheHill) break;
     if (there <= highest) continue;
     highest = there;
     c.start[0] = friction;
