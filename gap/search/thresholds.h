@@ -24,8 +24,7 @@ struct Thresholds {
   double tie = 6;                  ///< log evidence within which two explanations are not told apart
   double top = 1e-4;  ///< and, of a place or moment, the share of its evidence to which the search finds its top
   double known_share = 0.99;  ///< of the explainable evidence that named effects must explain, or the cause is unknown,
-  double known_share_of_shakes =
-      0.67;             ///< and beside what scatters, or is sudden or late: engines shake robots otherwise
+  double known_share_of_shakes = 0.67;  ///< and beside what scatters, is sudden or late: there engines differ more
   double sudden = 40;   ///< log evidence of what is sudden, at a place or a moment, that a difference of engines makes,
   double late = 150;    ///< and the same of readings that do not go with the counts
   double faint = 0.05;  ///< p-value of a single effect, below which it is in the set beside "none"

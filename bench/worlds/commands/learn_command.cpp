@@ -18,7 +18,7 @@ struct Arguments {
   int jobs = 0;
 };
 
-// A row of the table, as clang-format leaves it.
+// A row of the table, in the form of gap/traits/signature_errors.cpp.
 std::string row(const std::string& effect, const LearnedErrors& learned) {
   const gap::SignatureErrors& e = learned.errors;
   return fmt::format("{{\"{}\", {{{{{}, {}, {}, {}}}, {}, {}}}}},  // {} cases, gain {:.0f}\n", effect, e.parts[0],
