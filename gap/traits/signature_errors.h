@@ -24,10 +24,10 @@ struct SignatureErrors {
   double counts = 0;  ///< of what counts against commands show of it
 };
 
-/// Of effects whose signature follows from rolling alone, and of a name that is no
-/// effect's: hundredths.
+/// Of effects whose signature follows from rolling alone, and of a name that is no effect's: hundredths.
 SignatureErrors signature_errors_of(const std::string& effect);
 
+/// Where they are taken from.
 using ErrorsOf = std::function<SignatureErrors(const std::string& effect)>;
 
 }  // namespace umbsim::gap

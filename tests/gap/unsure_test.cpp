@@ -79,11 +79,11 @@ TEST(SignatureShares, SayByHowMuchEachPieceIsOff) {
     EXPECT_NEAR(off[i], 0.25, 3 * sd);
   }
   EXPECT_GE(known, 1);
-  const Eigen::VectorXd tenths = Eigen::VectorXd::Constant(n, 0.3);
-  std::printf("pieces that are off gain %.1f, those of the fit %.1f\n", shares.gain(tenths),
-              signature_shares(subject.model, fit, 0).gain(tenths));
-  EXPECT_GT(shares.gain(tenths), 50);
-  EXPECT_LT(signature_shares(subject.model, fit, 0).gain(tenths), 0);
+  const Eigen::VectorXd wide = Eigen::VectorXd::Constant(n, 0.3);
+  std::printf("pieces that are off gain %.1f, those of the fit %.1f\n", shares.gain(wide),
+              signature_shares(subject.model, fit, 0).gain(wide));
+  EXPECT_GT(shares.gain(wide), 50);
+  EXPECT_LT(signature_shares(subject.model, fit, 0).gain(wide), 0);
 }
 
 }  // namespace

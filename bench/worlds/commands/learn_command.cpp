@@ -32,8 +32,7 @@ void learn(const Arguments& a) {
       "// Written by `umbsim_worlds learn` (docs/worlds.md), from folders whose answers have these hashes:\n";
   for (const std::string& folder : a.folders) {
     const TrialFolder worlds(folder);
-    table += fmt::format("// {} {}\n", read_seal(worlds).value_or("not sealed"),
-                         read_json(worlds.answers()).at("trial").get<std::string>());
+    table += fmt::format("// {} {}\n", read_seal(worlds).value_or("not sealed"), folder);
     for (CaseShares& c : look_at_cases(worlds, a.jobs)) {
       if (std::count(a.without.begin(), a.without.end(), c.engine) > 0) continue;
       ++engines[c.engine];
@@ -58,7 +57,8 @@ void add_learn_command(CLI::App& app) {
       "learn", "By how much each effect's signature is off in other engines, from worlds whose answers are known");
   command->add_option("folders", a->folders, "Folders of worlds, drawn and sealed")->required();
   command->add_option("--without", a->without, "Engine that nothing is learned from (repeatable)")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"ours", "planar", "bullet", "mujoco"}));
   command->add_option("-o,--out", a->out, "File of the table; default: it is printed");
   command->add_option("-j,--jobs", a->jobs, "Cases at the same time; 0: one per core")->check(CLI::Range(0, 1024));
   command->callback([a] { learn(*a); });

@@ -59,15 +59,12 @@ std::vector<Known> known_cases(const TrialFolder& folder) {
   return known;
 }
 
-}  // namespace
-
-CaseShares look_at_case(const TrialFolder& folder, const std::string& name, const std::string& effect,
-                        const std::string& engine) {
-  CaseShares found{name, effect, engine, {}};
-  const GapRecordings recordings({(folder.recordings() / name).string()}, "");
+CaseShares look_at_case(const TrialFolder& folder, const Known& c) {
+  CaseShares found{c.name, c.effect, c.engine, {}};
+  const GapRecordings recordings({(folder.recordings() / c.name).string()}, "");
   gap::Model model(recordings.campaign(), recordings.simulator(true), gap::Scatter{});
-  if (engine != "ours" && model.engine_is_open()) model.take_for_another_engines();
-  gap::Screen screen(model, all_but(effect));
+  if (c.engine != "ours" && model.engine_is_open()) model.take_for_another_engines();
+  gap::Screen screen(model, all_but(c.effect));
   gap::Thresholds alone;
   alone.most_effects = 1;
   alone.smallest = alone.least_seen = 0;
@@ -80,6 +77,8 @@ CaseShares look_at_case(const TrialFolder& folder, const std::string& name, cons
   for (const double motion : kMotions) found.by_motion.push_back(gap::signature_shares(model, *best, motion));
   return found;
 }
+
+}  // namespace
 
 Json shares_json(const CaseShares& shares) {
   Json json{{"case", shares.name}, {"effect", shares.effect}, {"engine", shares.engine}, {"motions", Json::array()}};
@@ -122,8 +121,7 @@ std::vector<CaseShares> look_at_cases(const TrialFolder& folder, int jobs) {
       [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           const Known& c = known[open[i]];
-          write_file_whole(shares_file(folder, c.name),
-                           shares_json(look_at_case(folder, c.name, c.effect, c.engine)).dump());
+          write_file_whole(shares_file(folder, c.name), shares_json(look_at_case(folder, c)).dump());
           progress.step();
         }
       },

@@ -20,15 +20,12 @@ struct CaseShares {
   std::vector<gap::SignatureShares> by_motion;  ///< as kMotions; empty: the effect could not be fitted
 };
 
-/// Fits the effect that is in a recording, alone, and looks at the pieces of its signature.
-CaseShares look_at_case(const TrialFolder& folder, const std::string& name, const std::string& effect,
-                        const std::string& engine);
-
 Json shares_json(const CaseShares& shares);
 CaseShares read_shares(const Json& json);
 
-/// Looks at every case of a single effect of the catalogue that was not looked at before; keeps what it finds under
-/// shares/ of the folder. `jobs`: cases at the same time; 0: one per core. Throws InputError.
+/// Fits the effect of every case that has a single one of the catalogue, alone, and looks at the pieces of its
+/// signature; keeps what it finds under shares/ of the folder, and does what is not done yet. Left out is what follows
+/// from rolling alone. `jobs`: cases at the same time; 0: one per core. Throws InputError, RunError.
 std::vector<CaseShares> look_at_cases(const TrialFolder& folder, int jobs);
 
 }  // namespace umbsim::worlds
