@@ -12,6 +12,7 @@ void apply(const MotorResponse& effect, Rig& rig) {
   for (Motor& m : motor) {
     m.lag_s = effect.lag_s;
     m.deadband_radps = effect.deadband_radps;
+    m.droop_radps_per_nm = effect.droop_radps_per_nm;
     if (effect.torque_limit_nm > 0) m.torque_limit_nm = effect.torque_limit_nm;
   }
   motor[0].gain = 2 / (2 + effect.gain_asymmetry);

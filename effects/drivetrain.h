@@ -15,8 +15,9 @@ void apply(const Backlash& effect, Rig& rig);
 struct MotorResponse {
   double lag_s = 0;
   double deadband_radps = 0;
-  double gain_asymmetry = 0;    ///< right over left gain is 1 + this, their mean stays
-  double torque_limit_nm = 0;   ///< 0: the scenario's
+  double gain_asymmetry = 0;   ///< right over left gain is 1 + this, their mean stays
+  double torque_limit_nm = 0;  ///< 0: the scenario's
+  double droop_radps_per_nm = 0;
 };
 void apply(const MotorResponse& effect, Rig& rig);
 

@@ -35,9 +35,9 @@ bool same(const Caster& a, const Caster& b) {
 }
 
 bool same(const Motor& a, const Motor& b) {
-  const auto& [torque, gain, lag, deadband, backlash] = a;
-  return torque == b.torque_limit_nm && gain == b.gain && lag == b.lag_s && deadband == b.deadband_radps &&
-         backlash == b.backlash_rad;
+  const auto& [torque, gain, lag, droop, deadband, backlash] = a;
+  return torque == b.torque_limit_nm && gain == b.gain && lag == b.lag_s && droop == b.droop_radps_per_nm &&
+         deadband == b.deadband_radps && backlash == b.backlash_rad;
 }
 
 bool same(const EncoderFaults& a, const EncoderFaults& b) {

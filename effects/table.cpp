@@ -28,8 +28,7 @@ EffectInfo line(const char* name, Stage stage, std::vector<Member<E>> members, E
   EffectInfo info{name, stage, {}, std::move(text), false, {}};
   if constexpr (requires(E e) { e.run; }) info.one_run = true;
   for (const Member<E>& m : members) {
-    info.parameters.push_back(
-        {m.name, m.unit, E{}.*m.member, m.bounds, m.plausible_min, m.plausible_max, m.typical});
+    info.parameters.push_back({m.name, m.unit, E{}.*m.member, m.bounds, m.plausible_min, m.plausible_max, m.typical});
   }
   info.apply = [members](const EffectValues& values, Rig& rig) {
     E effect;
@@ -108,10 +107,12 @@ const std::vector<EffectInfo>& catalogue() {
           {{"lag_s", "s", &MotorResponse::lag_s, Bounds::between(0, 5), 0.02, 0.2, 0.1},
            {"deadband_radps", "rad/s", &MotorResponse::deadband_radps, Bounds::between(0, 10), 0.01, 0.1, 0},
            {"gain_asymmetry", "1", &MotorResponse::gain_asymmetry, Bounds::between(-0.5, 0.5), 0.01, 0.1, 0.03},
-           {"torque_limit_nm", "N m", &MotorResponse::torque_limit_nm, Bounds::between(0, 1000000.0), 1, 50, 0}},
+           {"torque_limit_nm", "N m", &MotorResponse::torque_limit_nm, Bounds::between(0, 1000000.0), 1, 50, 0},
+           {"droop_radps_per_nm", "rad/s per N m", &MotorResponse::droop_radps_per_nm, Bounds::between(0, 1000.0), 0.01,
+            10, 0}},
           {"Not listed: control, seen in commands against ticks",
            "First-order lag with dead band; e.g. BAM (actuator identification)",
-           "Motors lag, ignore small commands, or turn faster on one side.",
+           "Motors lag, ignore small commands, turn faster on one side, or give way under their load.",
            "commands against ticks; the odometry itself sees it", "none on ticks"}),
       line<OverAcceleration>("over_acceleration", Stage::contact,
                              {{"factor", "1", &OverAcceleration::factor, Bounds::between(0.01, 1000), 2, 30, 25}},

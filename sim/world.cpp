@@ -1,10 +1,10 @@
 #include "sim/world.h"
 
-#include <algorithm>
-#include <cmath>
+#include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "sim/world_state.h"
@@ -92,7 +92,8 @@ Vector3d World::State::gravity_mps2() const {
   return {along * std::cos(floor.downhill_rad), along * std::sin(floor.downhill_rad), -down};
 }
 
-// Whether a support is on a cable, would be if the gap between them were smaller by `gap_m`, or is up to `margin_m` beside.
+// Whether a support is on a cable, would be if the gap between them were smaller by `gap_m`, or is up to `margin_m`
+// beside.
 bool World::State::near_cable(double gap_m, double margin_m) const {
   for (const Cable& cable : floor.cables) {
     const double off_x = body.position().x() - cable.x_m, off_y = body.position().y() - cable.y_m;
@@ -129,6 +130,7 @@ void World::place(const Pose2& X_WB) {
   s.place_on_floor(X_WB);
   s.set_heading(X_WB.theta_rad);
   s.command_radps = s.last_command_radps = s.set_point_radps = {};
+  s.motor_load_nm = {};
   s.radius_factor = {1, 1};
   s.pull = {};
   const double settle_s = s.sprung ? kSettleOnSprings_s : kSettle_s;
@@ -152,11 +154,11 @@ void World::place(const Pose2& X_WB) {
 void World::command(double left_radps, double right_radps) {
   for (const double radps : {left_radps, right_radps}) {
     if (!(std::abs(radps) > kFastestCommand_radps)) continue;
-    throw InputError(
-        fmt::format("{}: a wheel is commanded to turn at {:g} rad/s (must be >= {:g} and <= {:g}); this comes "
-                    "from the speeds of the course, from the radii and wheelbase of the odometry, or from a driver that no "
-                    "longer holds its course",
-                    state_->robot.urdf, radps, -kFastestCommand_radps, kFastestCommand_radps));
+    throw InputError(fmt::format(
+        "{}: a wheel is commanded to turn at {:g} rad/s (must be >= {:g} and <= {:g}); this comes "
+        "from the speeds of the course, from the radii and wheelbase of the odometry, or from a driver that no "
+        "longer holds its course",
+        state_->robot.urdf, radps, -kFastestCommand_radps, kFastestCommand_radps));
   }
   state_->command_radps = {left_radps, right_radps};
 }
@@ -187,9 +189,7 @@ Pose2 World::pose() const {
   return {p.x(), p.y(), state_->heading_rad};
 }
 
-double World::wheel_angle(int wheel) const {
-  return state_->body.joint_angle(wheel) - state_->zero_angle_rad[wheel];
-}
+double World::wheel_angle(int wheel) const { return state_->body.joint_angle(wheel) - state_->zero_angle_rad[wheel]; }
 double World::encoder_angle(int wheel) const {
   if (state_->drivetrain.motor[wheel].backlash_rad == 0) return wheel_angle(wheel);
   return state_->shaft_rad[wheel] - state_->zero_angle_rad[wheel];

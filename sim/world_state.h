@@ -137,6 +137,7 @@ struct World::State {
   std::array<double, 2> last_command_radps{};
   std::array<double, 2> zero_angle_rad{};
   std::array<double, 2> set_point_radps{};    // behind the motors' lag
+  std::array<double, 2> motor_load_nm{};      // beyond what the inertia takes; of motors that give way
   std::array<double, 2> shaft_rad{};          // motor side of the backlash
   std::array<double, 2> radius_factor{1, 1};  // of rolling, not of the shape
   std::array<double, 2> rest_load_n{};        // that squashes a tyre at rest
@@ -176,6 +177,9 @@ struct World::State {
   double rolling_radius(const Support& s) const;
   double load(const Support& s) const;
   std::array<double, 2> follow_commands(double step_s, double part);
+  double droop_inertia_kgm2(int wheel) const;
+  double given_way_radps(int wheel, double set_radps, double step_s) const;
+  void note_motor_loads(double step_s, const std::array<double, 2>& before_radps);
   void step(double step_s, const std::array<double, 2>& target_radps);
   void step_anywhere(double step_s, const std::array<double, 2>& target_radps, const Impulse& given);
   bool step_rolling(double step_s, const std::array<double, 2>& target_radps, const Impulse& given, DofVector& u);

@@ -63,7 +63,11 @@ LoopTiming loop_timing(const Scenario& s, const Rig& rig) {
   timing.period_s = 1 / rig.encoders.rate_hz;
   timing.sampling_s = rig.encoders.sampling_interval_s;
   timing.latency_s = rig.encoders.latency_s;
-  for (const Motor& m : rig.drivetrain.motor) timing.lag_s = std::max(timing.lag_s, m.lag_s);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Motor& m = rig.drivetrain.motor[i];
+    const double inertia_kgm2 = rig.robot.total_mass_kg() / 2 * std::pow(rig.robot.wheels[i].radius_m, 2);
+    timing.lag_s = std::max(timing.lag_s, m.lag_s + m.droop_radps_per_nm * inertia_kgm2);
+  }
   timing.step_s = s.physics.step_s;
   return timing;
 }

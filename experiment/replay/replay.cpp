@@ -189,6 +189,7 @@ Rig Replay::shafts_as_counted(Rig r) const {
     if (m.torque_limit_nm > 0) m.torque_limit_nm = kAnyTorque_nm;
     m.gain = 1;
     m.lag_s = 0;
+    m.droop_radps_per_nm = 0;
     m.deadband_radps = 0;
   }
   return r;

@@ -11,7 +11,10 @@ CountsSd Model::counts_sd(std::size_t run, bool alone) const {
   const CommandResponse& measured = measured_.counted[run];
   if (!measured.known) return CountsSd::Zero();
   const double gain = std::hypot(scatter_.gain, measured.gain_sd, alone ? scatter_.engine_gain : 0);
-  return {gain, gain, alone ? scatter_.counts_lag_s : scatter_.run_lag_s};
+  const double by_heading = std::hypot(scatter_.gain * measured.speed_radps, measured.by_heading_sd_radps);
+  CountsSd sd;
+  sd << gain, gain, (alone ? scatter_.counts_lag_s : scatter_.run_lag_s), by_heading, by_heading;
+  return sd;
 }
 
 // What differs between two of them, in standard deviations.
@@ -19,14 +22,16 @@ Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const P
   Eigen::VectorXd rows = Eigen::VectorXd::Zero(kFeatureRows);
   if (run == 0) {
     for (std::size_t i = 0; i < a.command_features.size(); ++i) {
-      rows[3 + Eigen::Index(i)] = (a.command_features[i] - b.command_features[i]) / features_sd_[i];
+      rows[kCountRows + Eigen::Index(i)] = (a.command_features[i] - b.command_features[i]) / features_sd_[i];
     }
   }
   const CommandResponse& x = a.counted[run];
   const CommandResponse& y = b.counted[run];
   if (!measured_.counted[run].known || !x.known || !y.known) return rows;
-  rows.head<3>() = CountsSd(x.left_gain - y.left_gain, x.right_gain - y.right_gain, x.lag_s - y.lag_s)
-                       .cwiseQuotient(counts_sd(run, alone));
+  CountsSd off;
+  off << x.left_gain - y.left_gain, x.right_gain - y.right_gain, x.lag_s - y.lag_s,
+      x.by_heading_radps - y.by_heading_radps;
+  rows.head<kCountRows>() = off.cwiseQuotient(counts_sd(run, alone));
   return rows;
 }
 
@@ -53,12 +58,12 @@ double Model::counts_misfit(const Fit& fit) const {
 }
 
 double Model::command_features_misfit(const Predicted& predicted) const {
-  return feature_rows(0, measured_, predicted, true).tail(kFeatureRows - 3).squaredNorm();
+  return feature_rows(0, measured_, predicted, true).tail(kFeatureRows - kCountRows).squaredNorm();
 }
 
 double Model::count_rows() const {
   double rows = double(std::tuple_size<CommandFeatures>::value);
-  for (const CommandResponse& counted : measured_.counted) rows += counted.known ? 3 : 0;
+  for (const CommandResponse& counted : measured_.counted) rows += counted.known ? kCountRows : 0;
   return rows;
 }
 

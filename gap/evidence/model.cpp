@@ -34,8 +34,9 @@ Model::Model(const Campaign& campaign, Simulator simulator, const Scatter& scatt
     const RecordedRun& run = all.runs[r];
     stretches_.push_back(umbsim::stretches(run, all.robot));
     if (&campaign.of(r) == &lead) of_lead.push_back(stretches_.back());
-    measured_.counted.push_back(run.has_commands ? command_response(run, counted_rad(run, all.robot), step_rad_)
-                                                 : CommandResponse{});
+    measured_.counted.push_back(run.has_commands
+                                    ? command_response(run, all.robot, counted_rad(run, all.robot), step_rad_)
+                                    : CommandResponse{});
   }
   measured_.command_features = measured_command_features(lead, of_lead, step);
   without_effects_ = predict({{}}).front();
@@ -116,7 +117,8 @@ std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& se
     all[set].tracks[r] = simulate_run(r, effects);
     const bool counts = recording().runs[r].has_commands && simulator_.commands;
     if (counts && (effects.empty() || acts_on_counts(effects))) {
-      all[set].counted[r] = command_response(recording().runs[r], simulator_.commands(r, effects), step_rad_);
+      all[set].counted[r] =
+          command_response(recording().runs[r], recording().robot, simulator_.commands(r, effects), step_rad_);
     }
   });
   for (const std::size_t r : driven) simulated_s_ += double(sets.size()) * recording().runs[r].encoders.back().time_s;
@@ -216,6 +218,11 @@ double Model::rows() const {
   double rows = 0;
   for (const auto& run : nominal_.seen) rows += 3 * double(std::count(run.begin(), run.end(), true));
   return rows;
+}
+
+double Model::motor_inertia_kgm2() const {
+  const double radius_m = recording().robot.wheel_radius_m;
+  return std::max(1e-6, mass_kg() / 2 * radius_m * radius_m);
 }
 
 std::vector<std::size_t> Model::all_runs() const {

@@ -112,6 +112,8 @@ class Model {
   /// Of the drive wheels; 0: not known.
   double wheel_width_m() const { return simulator_.wheel_width_m; }
   double mass_kg() const { return simulator_.mass_kg; }
+  /// That each motor moves as the robot speeds up, at the wheel.
+  double motor_inertia_kgm2() const;
   int nuisances() const { return int(nuisance_sd().size()); }
   /// Of another engine's recording, as long as nothing is known of its tracker.
   const Eigen::VectorXd& nuisance_sd() const { return nuisances_.usual_sd; }
@@ -204,8 +206,9 @@ class Model {
   double log_evidence(const Fit& fit, const std::vector<std::size_t>& runs) const;
 
  private:
-  // Three of a run, and five of the recording, which stand with the first run.
-  static constexpr int kFeatureRows = 8;
+  // Of a run, and with five of the recording, which stand with the first run.
+  static constexpr int kCountRows = CountsSd::RowsAtCompileTime;
+  static constexpr int kFeatureRows = kCountRows + int(std::tuple_size<CommandFeatures>::value);
 
   void observe();
   std::vector<Eigen::MatrixXd> products_of_nuisances() const;

@@ -166,9 +166,28 @@ Hypothesis on_soft_tyres(Hypothesis hypothesis) {
   return hypothesis;
 }
 
+// A slope pulls on motors, which turn faster downhill than they are told if they give way: as much as they lag when the
+// robot speeds up.
+Hypothesis on_motors_that_give_way(Hypothesis hypothesis, double motor_inertia_kgm2) {
+  hypothesis.variant += ", motors that give way";
+  const Eigen::Index own = Eigen::Index(hypothesis.parameters.size());
+  constexpr double kTypical_s = 0.01;  // of the control's time constant
+  hypothesis.parameters.push_back({"log motor_response.droop", 0, 0.2, 1, -4, 4});
+  const EffectInfo& motor = find_effect("motor_response");
+  const std::size_t droop = index_of(motor, "droop_radps_per_nm");
+  const double most = motor.parameters[droop].bounds.max;
+  hypothesis.with = [=, &motor](const Eigen::VectorXd& p) {
+    Effect response = neutral_effect(motor);
+    response.values.numbers[droop] = std::min(most, kTypical_s / motor_inertia_kgm2 * std::exp(p[own]));
+    return std::vector<Effect>{response};
+  };
+  return hypothesis;
+}
+
 }  // namespace
 
-std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revolution, double wheel_width_m) {
+std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revolution, double wheel_width_m,
+                                         double motor_inertia_kgm2) {
   std::vector<Hypothesis> all = {
       logarithmic("over_acceleration", "factor", 1, 2, -3, 6),
       logarithmic("fast_turning", "factor", 1, 1.5, -3, 4),
@@ -220,6 +239,8 @@ std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revol
       drag_beside_middle("right of it", -0.05),
       from_start(direct("slippery_floor", "friction", {{"friction", 0, 2e-4, 0.2, 0.01, 0.8}}), 0.06),
       vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5),
+      on_motors_that_give_way(vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5),
+                              motor_inertia_kgm2),
       vector_hypothesis("carpet_drift", "metres_per_metre", "direction_rad", 1e-3, 0.008, 0.5),
   };
   for (Hypothesis& f : all) {

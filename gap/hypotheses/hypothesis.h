@@ -49,8 +49,9 @@ Eigen::VectorXd prior_sd_of(const std::vector<Hypothesis>& hypotheses);
 
 /// Every hypothesis of the catalogue that needs no search for a place or moment.
 /// `period_s` and `ticks_per_revolution`: of the recording's encoders. `wheel_width_m`: no contact is wider; 0: not
-/// known.
-std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revolution, double wheel_width_m = 0);
+/// known. `motor_inertia_kgm2`: that each motor moves as the robot speeds up.
+std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revolution, double wheel_width_m = 0,
+                                         double motor_inertia_kgm2 = 0.1);
 
 /// Hypotheses of local effects, at a place of the floor or a moment of one run.
 /// `heading_rad`: of the robot as it passes; the cable lies across.

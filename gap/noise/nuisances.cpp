@@ -198,7 +198,7 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
     for (int i = 0; i < kPerGroup; ++i) raw.col(first + i) = filters[r].propagate(impulses[std::size_t(i)]);
     n.shared.push_back(whitened(filters[r], raw, more_rows));
     n.tracks.push_back(std::move(raw));
-    for (Eigen::Index i = 0; i < counts[r].size(); ++i) {
+    for (Eigen::Index i = 0; i < kCommon - kCountsColumn; ++i) {
       if (counts[r][i] > 0) n.shared.back()(3 * samples + i, kCountsColumn + i) = 1 / counts[r][i];
     }
     const bool is_free = tracker_is_free(*nominal.origin[r]);

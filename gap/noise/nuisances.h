@@ -66,9 +66,9 @@ using Drive = std::function<std::vector<std::vector<Pose2>>(const std::vector<Ef
 /// headings as well as a simulated one.
 bool tracker_is_free(const Recording& recording);
 
-/// With what counts against commands are measured in a run, standard deviations: left gain, right gain, lag (s). Zeros
-/// where they are not known.
-using CountsSd = Eigen::Vector3d;
+/// With what counts against commands are measured in a run, standard deviations: left gain, right gain, lag (s), speed
+/// along the cosine and the sine of the heading (rad/s). Zeros where they are not known.
+using CountsSd = Eigen::Matrix<double, 5, 1>;
 
 /// `floor_m`: the noise floor, for how much slip is nobody's. `more_rows`: below each column, zeros but for the gains
 /// and the lag of counts in the first three of these. `counts`: of each run.

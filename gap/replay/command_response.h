@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <vector>
 
@@ -12,14 +13,19 @@ struct CommandResponse {
   bool known = false;
   double left_gain = 0;  ///< counted over commanded rotation, minus 1
   double right_gain = 0;
-  double lag_s = 0;    ///< of the counts behind the commands
-  double gain_sd = 0;  ///< of the gains, from the width of the encoder's steps
+  double lag_s = 0;  ///< of the counts behind the commands
+  /// Wheel speed beyond the command, mean of both, along the cosine and the sine of the heading: a slope pulls so on
+  /// motors that give way.
+  Eigen::Vector2d by_heading_radps = Eigen::Vector2d::Zero();
+  double gain_sd = 0;              ///< of the gains, from the width of the encoder's steps
+  double by_heading_sd_radps = 0;  ///< the same of by_heading_radps
+  double speed_radps = 0;          ///< of the wheels, mean over the run
 };
 
 /// `counts_rad`: angles (left, right) at the encoder samples of a run with commands. `step_rad`: between
 /// two counts, as wide as they really are.
-CommandResponse command_response(const RecordedRun& run, const std::vector<std::array<double, 2>>& counts_rad,
-                                 double step_rad);
+CommandResponse command_response(const RecordedRun& run, const RecordedRobot& robot,
+                                 const std::vector<std::array<double, 2>>& counts_rad, double step_rad);
 
 /// The recorded counts as angles.
 std::vector<std::array<double, 2>> counted_rad(const RecordedRun& run, const RecordedRobot& robot);

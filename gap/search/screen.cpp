@@ -33,8 +33,8 @@ std::optional<double> shown_start(const std::string& effect, const CommandFeatur
 
 Screen::Screen(const Model& model, const std::set<std::string>& excluded) : model_(model), excluded_(excluded) {
   const Recording& recording = model.recording();
-  for (const Hypothesis& f :
-       plain_hypotheses(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution, model.wheel_width_m())) {
+  for (const Hypothesis& f : plain_hypotheses(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution,
+                                              model.wheel_width_m(), model.motor_inertia_kgm2())) {
     if (excluded.count(f.effect) > 0 || !may_show(f.effect, model.command_features())) continue;
     hypotheses_.push_back(f);
     // Samples that are rarer by a little already lag by up to a period: a longer interval says little of these.

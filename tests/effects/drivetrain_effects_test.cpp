@@ -104,10 +104,11 @@ TEST(MotorResponse, GainShowsInTheCommandsAndNotInTheReturnError) {
 }
 
 // What a first-order lag makes of commands that ramp from period to period, in closed form.
-double worst_against_lag(const RecordedRun& run, const OdometryParameters& odometry, double lag_s) {
+double worst_against_lag(const RecordedRun& run, const OdometryParameters& odometry, double lag_s,
+                         double until_s = 1e9) {
   constexpr double T = 0.02;
   double speed = 0, angle = 0, worst = 0;
-  for (std::size_t i = 1; i < run.encoders.size(); ++i) {
+  for (std::size_t i = 1; i < run.encoders.size() && run.encoders[i].time_s < until_s; ++i) {
     const double from = run.encoders[i - 1].right_command_radps, to = run.encoders[i].right_command_radps;
     const double slope = (to - from) / T, off = speed - from + slope * lag_s, decay = std::exp(-T / lag_s);
     angle += from * T + slope * (T * T / 2 - lag_s * T) + off * lag_s * (1 - decay);
@@ -137,6 +138,59 @@ TEST(MotorResponse, LagIsOfFirstOrderAndTheStepsErrorShrinksWithIt) {
       last = worst;
     }
   }
+}
+
+constexpr double kMass_kg = 42, kSpun_kg = 1;  // the wheels' spin is worth 2 x 0.5 kg
+
+// A motor whose speed control has no integral part, torque = (set - speed) / droop, follows a first-order lag whose
+// time constant is droop times the inertia that it moves.
+TEST(MotorResponse, DroopIsALagAgainstTheRobotsInertia) {
+  const double inertia_kgm2 = (kMass_kg + kSpun_kg) / 2 * kRadius_m * kRadius_m;
+  double last = 0;
+  for (const double step_s : {0.02, 0.01, 0.005}) {
+    const double lag_s = 0.05;
+    const ExperimentResult r = drive(fmt::format("motor_response: {{droop_radps_per_nm: {}}}", lag_s / inertia_kgm2),
+                                     {fmt::format("physics.step_s={}", step_s)});
+    const double worst = worst_against_lag(run_of(r, "ccw-1"), r.odometry, lag_s, 5);
+    std::cout << fmt::format("step {} s: wheel angle within {:.5f} rad of a lag of {} s; {}\n", step_s, worst, lag_s,
+                             text(r.ccw.errors[0]));
+    EXPECT_LT(worst, 0.6 * step_s * 0.2 / kRadius_m);
+    if (last > 0) {
+      EXPECT_LT(worst, 0.6 * last) << "half the step";
+    }
+    EXPECT_LT(r.ccw.r_cg_m, kNothing_m);
+    last = worst;
+  }
+}
+
+// Downhill the wheels turn faster than commanded by droop times m g sin(slope) R / 2, uphill slower; the encoders see
+// it, so that the odometry knows.
+TEST(MotorResponse, DroopGivesWayOnASlope) {
+  constexpr double kDroop = 0.2, kSlope_rad = 0.02, kDownhill_rad = 0.6;
+  const ExperimentResult r =
+      drive(fmt::format("motor_response: {{droop_radps_per_nm: {}}}, floor_slope: {{slope_rad: {}, downhill_rad: {}}}",
+                        kDroop, kSlope_rad, kDownhill_rad));
+  const double most_radps = kDroop * kMass_kg * 9.81 * std::sin(kSlope_rad) * kRadius_m / 2;
+  for (const Segment& s : segments(r, Direction::ccw)) {
+    if (s.kind != Segment::Kind::leg) continue;
+    const RecordedRun& run = run_of(r, "ccw-1");
+    double beyond_rad = 0, time_s = 0;
+    for (std::size_t i = 1; i < run.encoders.size(); ++i) {
+      const EncoderSample &a = run.encoders[i - 1], &b = run.encoders[i];
+      if (b.time_s < s.start_s + 0.25 * s.duration_s || b.time_s > s.start_s + 0.75 * s.duration_s) continue;
+      // Of both wheels: the centre of mass beside the axle's middle loads one of them more.
+      const long ticks = b.left_ticks - a.left_ticks + b.right_ticks - a.right_ticks;
+      const double commanded_radps = (b.left_command_radps + b.right_command_radps) / 2;
+      beyond_rad += wheel_rad(ticks, r.odometry) / 2 - commanded_radps * (b.time_s - a.time_s);
+      time_s += b.time_s - a.time_s;
+    }
+    const double expected = most_radps * std::cos((s.leg - 1) * M_PI / 2 - kDownhill_rad);
+    std::cout << fmt::format("leg {}: {:+.5f} rad/s beyond the command over {:.1f} s; {:+.5f} expected; {}\n", s.leg,
+                             beyond_rad / time_s, time_s, expected, text(r.ccw.errors[0]));
+    EXPECT_GT(time_s, 5);
+    EXPECT_NEAR(beyond_rad / time_s, expected, 0.01 * most_radps);
+  }
+  EXPECT_LT(r.ccw.r_cg_m, 1e-5) << "on a slope the contacts' mobility shows";
 }
 
 TEST(MotorResponse, SmallCommandsMoveNothing) {

@@ -198,7 +198,7 @@ TEST(ReplayOfCommands, AStepToAndFroIsNoGain) {
     const Recording recording = coarse(ticks, 2000);
     for (const RecordedRun& run : recording.runs) {
       const gap::CommandResponse f =
-          gap::command_response(run, gap::counted_rad(run, recording.robot), 2 * M_PI / ticks);
+          gap::command_response(run, recording.robot, gap::counted_rad(run, recording.robot), 2 * M_PI / ticks);
       std::cout << fmt::format("{} ticks, {}: gains {:+.5f} {:+.5f}, uncertain by {:.5f}\n", ticks, run.id, f.left_gain,
                                f.right_gain, f.gain_sd);
       EXPECT_LT(std::abs(f.left_gain), 3 * f.gain_sd);

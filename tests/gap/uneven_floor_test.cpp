@@ -107,8 +107,8 @@ TEST(MotorScatter, GainsDifferFromRunToRun) {
   s.noise.motor_scatter = 0;
   const Recording exact = run_experiment(s, 0).recording;
   const auto gains = [](const Recording& r, std::size_t run) {
-    const CommandResponse f =
-        command_response(r.runs[run], counted_rad(r.runs[run], r.robot), 2 * M_PI / r.robot.ticks_per_revolution);
+    const CommandResponse f = command_response(r.runs[run], r.robot, counted_rad(r.runs[run], r.robot),
+                                               2 * M_PI / r.robot.ticks_per_revolution);
     return Eigen::Vector2d(f.left_gain, f.right_gain);
   };
   double square = 0;
