@@ -1,10 +1,10 @@
 #include "experiment/replay/recorded_shafts.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "recording/coarse_counts.h"
+#include "recording/counts_behind.h"
 #include "recording/encoder_clock.h"
 
 namespace umbsim {
@@ -145,30 +145,24 @@ std::vector<double> between_steps(std::vector<double> ahead, const std::vector<d
 
 }  // namespace
 
-double measured_lag(const RecordedRun& run, double radians_per_tick, int steps) {
+double measured_lag(const RecordedRun& run, const RecordedRobot& robot, int steps) {
   if (!run.has_commands) return 0;
-  double lag = 0;
+  const std::vector<Eigen::Vector2d> ahead_s = heading_over_time(run, robot);
+  const double step_rad = 2 * M_PI / robot.ticks_per_revolution;
+  double lag_s = 0;
   for (int w = 0; w < 2; ++w) {
     const auto command = w == 0 ? &EncoderSample::left_command_radps : &EncoderSample::right_command_radps;
     const auto ticks = w == 0 ? &EncoderSample::left_ticks : &EncoderSample::right_ticks;
-    const std::vector<double> asked = commanded(run.encoders, obeyed(run.encoders, command, 0), steps);
-    Eigen::Matrix4d A = Eigen::Matrix4d::Identity() * 1e-12;
-    Eigen::Vector4d b = Eigen::Vector4d::Zero();
-    double way = 0;
-    for (std::size_t i = 1; i < run.encoders.size(); ++i) {
-      const EncoderSample& s = run.encoders[i];
-      way += std::abs(asked[i] - asked[i - 1]);
-      const Eigen::Vector4d x(s.*command, asked[i], way, 1);
-      A += x * x.transpose();
-      b += x * (asked[i] - radians_per_tick * double(s.*ticks - run.encoders.front().*ticks));
-    }
-    lag += 0.5 * A.ldlt().solve(b)[0];
+    std::vector<double> counted;
+    for (const EncoderSample& s : run.encoders) counted.push_back(step_rad * double(s.*ticks));
+    const std::vector<double> speed = obeyed(run.encoders, command, 0);
+    lag_s += 0.5 * counts_behind(speed, commanded(run.encoders, speed, steps), counted, ahead_s, step_rad).lag_s;
   }
-  return lag;
+  return lag_s;
 }
 
 std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec, const EncoderFaults& faults,
-                          bool left, double lag_s, int steps, double count_step) {
+                                 bool left, double lag_s, int steps, double count_step) {
   const auto ticks = left ? &EncoderSample::left_ticks : &EncoderSample::right_ticks;
   const std::vector<EncoderSample>& s = run.encoders;
   const double k = 2 * M_PI / spec.ticks_per_revolution;

@@ -8,9 +8,9 @@
 
 namespace umbsim {
 
-/// How late a run's counts follow its commands, seconds, by least squares on speed, commanded angle and way; 0 without
-/// commands. `steps`: time steps of the simulator per sample.
-double measured_lag(const RecordedRun& run, double radians_per_tick, int steps);
+/// How late a run's counts follow its commands, seconds (recording/counts_behind.h); 0 without commands. `steps`: time
+/// steps of the simulator per sample.
+double measured_lag(const RecordedRun& run, const RecordedRobot& robot, int steps);
 
 /// Speeds (rad/s) of a shaft at the encoder samples, from what arrived of its rotation through an encoder that reads
 /// late, latches, and misses counts (put back in the mean). Commands, where there are some, give the fine structure

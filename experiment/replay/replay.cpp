@@ -123,7 +123,7 @@ Replay::Replay(const Scenario& scenario, const Recording& recording, bool by_tra
     stretches_.push_back(umbsim::stretches(run, recording.robot));
     const bool track = recording.truth_kind == "track" && run.truth.size() > 20;
     start_.push_back(track ? start_of(run, recording.robot) : run.truth.front().X_WB);
-    lag_s_.push_back(measured_lag(run, 2 * M_PI / recording.robot.ticks_per_revolution, steps_));
+    lag_s_.push_back(measured_lag(run, recording.robot, steps_));
   }
 }
 

@@ -41,7 +41,7 @@ void add_what_explains(const Fit& best, const Fit& none, Diagnosis& d) {
 void add_what_counts_show(const Model& model, const Fit& none, const Thresholds& t, Diagnosis& d) {
   const double before = model.counts_misfit(none.predicted);
   for (const Cause& c : d.causes) {
-    if (c.fit.hypotheses.size() != 1 || !shows_in_counts(find_effect(c.fit.hypotheses.front().effect))) continue;
+    if (c.fit.hypotheses.size() != 1 || !shows_in_counts(c.fit.hypotheses.front())) continue;
     if (before - model.counts_misfit(c.fit.predicted) < 2 * t.plainly_shown) continue;
     add_to_set(c.name, d);
   }

@@ -99,14 +99,19 @@ bool twin_lacks_mends_alone(const Model& model, const Diagnosis& d) {
   });
 }
 
+// Whether counts are missed by clearly more than with `richer`, which another engine's contacts do not make.
+bool counts_lose(const Context& w, const Fit& fit, const Fit& richer) {
+  const double counts = w.model.counts_misfit(richer.predicted);
+  return w.model.counts_misfit(fit.predicted) > counts + 2 * w.thresholds.addition;
+}
+
 // On another engine's recordings a contact's effect, or a dimension, beside others that takes too little away on
 // held-out runs, and does not show in counts, is no cause: it mends how the two engines' contacts differ. The
 // combination with it stays behind, as not told apart.
 void name_what_foretells(const Context& w, Fit& best, Diagnosis& d) {
   if (d.twin_is_nominal() || d.twin.hypotheses.size() == d.explanation.hypotheses.size()) return;
   if (w.model.same_engine(best) || !twin_lacks_mends_alone(w.model, d)) return;
-  const double counts = w.model.counts_misfit(d.explanation.predicted);
-  if (w.model.counts_misfit(d.twin.predicted) > counts + 2 * w.thresholds.addition) return;
+  if (counts_lose(w, d.twin, d.explanation)) return;
   best = d.explanation = d.twin;
   put_first(best, 2 * kAhead, d);
 }
@@ -125,20 +130,22 @@ bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
 }
 
 // The fit of what rolls, of what counts show, or of a place or moment that is all that is found, and closes a gap.
-Fit without_contacts(const Model& model, Fit fit, const Closure& closure) {
-  if (model.taken_for_another_engines() && closure.known && fit.hypotheses.size() == 1 && fit.is_local()) return fit;
-  const auto contact = [](const Hypothesis& h) { return is_contact(h.effect); };
-  for (;;) {
-    const auto at = std::find_if(fit.hypotheses.begin(), fit.hypotheses.end(), contact);
-    if (at == fit.hypotheses.end()) return fit;
-    fit = model.without(fit, std::size_t(at - fit.hypotheses.begin()));
+Fit without_contacts(const Context& w, Fit fit, const Closure& closure) {
+  if (w.model.taken_for_another_engines() && closure.known && fit.hypotheses.size() == 1 && fit.is_local()) return fit;
+  for (std::size_t i = 0; i < fit.hypotheses.size();) {
+    Fit less = is_contact(fit.hypotheses[i].effect) ? w.model.without(fit, i) : fit;
+    if (less.hypotheses.size() == fit.hypotheses.size() || counts_lose(w, less, fit))
+      ++i;
+    else
+      fit = std::move(less);
   }
+  return fit;
 }
 
 // Leaves what contacts do within the noise of another engine's recordings out. Whether anything stays.
 bool name_beside_noise(const Context& w, Fit& best, Diagnosis& d) {
   const std::size_t effects = best.hypotheses.size();
-  best = without_contacts(w.model, best, d.closure);
+  best = without_contacts(w, best, d.closure);
   if (best.hypotheses.size() < effects || effects == 0)
     d.limits.push_back(
         "no track strays by more than noise makes it: how engines' contacts differ is not told from an effect");

@@ -64,6 +64,11 @@ std::vector<Effect> effects_of(const Hypothesis& hypothesis, const Eigen::Vector
   return effects;
 }
 
+bool shows_in_counts(const Hypothesis& hypothesis) {
+  const std::vector<Effect> all = effects_of(hypothesis, start_of(hypothesis));
+  return std::any_of(all.begin(), all.end(), [](const Effect& e) { return shows_in_counts(*e.info); });
+}
+
 namespace {
 
 // Both wheels toed by the same angle against each other: the robot goes straight, and scrubs.

@@ -40,6 +40,9 @@ std::vector<Effect> effects_of(const Hypothesis& hypothesis, const Eigen::Vector
 
 Effect effect_of(const Hypothesis& hypothesis, const Eigen::VectorXd& p);
 
+/// Whether the effect, or what goes with it, shows in counts against commands.
+bool shows_in_counts(const Hypothesis& hypothesis);
+
 /// Where the fit of its numbers begins.
 Eigen::VectorXd start_of(const Hypothesis& hypothesis);
 

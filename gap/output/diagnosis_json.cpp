@@ -122,7 +122,7 @@ Json remarks_of(const Diagnosis& d) {
   Json remarks = Json::array();
   for (std::size_t i = 0; i < d.twin.hypotheses.size(); ++i) {
     const std::string& effect = d.twin.hypotheses[i].effect;
-    if (!shows_in_counts(find_effect(effect))) continue;
+    if (!shows_in_counts(d.twin.hypotheses[i])) continue;
     const bool moves = d.closure.known && i < d.closure.worth.size() && d.closure.worth[i].mm > d.noise_floor_mm;
     if (!moves) remarks.push_back(effect);
   }

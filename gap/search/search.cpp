@@ -92,7 +92,7 @@ bool ForwardSearch::large_enough(const Fit& base, const Fit& fit) const {
   if (model_.tracker_is_free() && !base.hypotheses.empty()) return true;
   const double smallest = base.hypotheses.empty() ? thresholds_.smallest : thresholds_.smallest_addition;
   const bool small = fit.size < smallest && fit.seen < thresholds_.least_seen;
-  return !small || shows_in_counts(find_effect(fit.hypotheses.back().effect));
+  return !small || shows_in_counts(fit.hypotheses.back());
 }
 
 void ForwardSearch::fit_singles() {
@@ -192,7 +192,7 @@ void ForwardSearch::add_to(const Fit& base, std::size_t most, Part part, std::ve
     if (!fresh && c.gain < first->second - kAnotherVariant) continue;
     // A local search for a place or a moment takes more simulations than all other fits.
     if (c.reach.size() > 1 && local_searches == kLocalSearches) continue;
-    const bool counts = shows_in_counts(find_effect(c.hypothesis.effect));
+    const bool counts = shows_in_counts(c.hypothesis);
     const double hint = counts ? std::min(needed.hint, 0.5 * needed.counts) : needed.hint;
     if (c.gain < (c.hypothesis.search_cost > 0 ? 0.5 * needed.local : hint)) continue;
     if (c.reach.size() > 1) ++local_searches;
