@@ -17,7 +17,7 @@ TESTED = {
     "load_shift": "statics: heading per metre c (N_L - N_R) / (b R); nothing on hard tyres",
     "wear": "exact kinematics of each run's radii; linear in the run number",
     "backlash": "the play's place after every leg and turn; nothing between reversals",
-    "motor_response": "first-order response; commands by the gain's ratio; dead band; torque as a force",
+    "motor_response": "first-order response; commands by the gain's ratio; dead band; torque as a force; droop on a slope",
     "over_acceleration": "stops slip first, where demanded traction exceeds friction",
     "fast_turning": "skids where the centre of mass pulls the wheels off; turns alone",
     "encoder_resolution": "heading within a tick / b everywhere; in proportion to the tick",

@@ -72,7 +72,7 @@ Diagnosis diagnose(Model& model, const std::set<std::string>& excluded, const Th
     progress("for another engine: " + stage, share);
   };
   Diagnosis again = diagnosed(another, excluded, t, progress_again);
-  const bool hidden = !again.detected && again.before_mm <= most_hidden_mm(another);
+  const bool hidden = again.before_mm <= most_hidden_mm(another);
   if (first.not_fitted || (cause.name == "unknown" && !hidden)) {
     first.simulated_s = again.simulated_s;
     return first;

@@ -49,7 +49,7 @@ std::vector<double> numbers(const Rig& rig) {
     all.insert(all.end(), {c.radius_m, c.friction, double(c.swivels), c.swivel_friction_nm, c.initial_angle_rad});
   }
   for (const Motor& m : rig.drivetrain.motor) {
-    all.insert(all.end(), {m.torque_limit_nm, m.gain, m.lag_s, m.deadband_radps, m.backlash_rad});
+    all.insert(all.end(), {m.torque_limit_nm, m.gain, m.lag_s, m.droop_radps_per_nm, m.deadband_radps, m.backlash_rad});
   }
   const Floor& f = rig.floor;
   all.insert(all.end(),
@@ -107,7 +107,8 @@ TEST(Catalogue, LinesAreComplete) {
   for (const EffectInfo& info : catalogue()) {
     EXPECT_TRUE(names.insert(info.name).second) << info.name << " is there twice";
     EXPECT_FALSE(info.text.lecture.empty() || info.text.source.empty() || info.text.description.empty() ||
-                 info.text.signature.empty() || info.text.confused_with.empty()) << info.name;
+                 info.text.signature.empty() || info.text.confused_with.empty())
+        << info.name;
     ASSERT_FALSE(info.parameters.empty());
     for (const EffectParameter& p : info.parameters) {
       EXPECT_TRUE(p.bounds.contains(p.neutral)) << info.name;
@@ -180,12 +181,11 @@ Effect with(const std::string& name, const std::string& parameter, double value)
 }
 
 TEST(Effects, FoundOnTopOfBelieved) {
-  const std::vector<Effect> both =
-      combined({with("wheelbase", "relative", 0.02), with("fast_turning", "factor", 2),
-                with("slippery_floor", "friction", 0.5), with("bump", "x_m", 1)},
-               {with("wheelbase", "relative", 0.01), with("fast_turning", "factor", 1.5),
-                with("slippery_floor", "friction", 0.1), with("bump", "x_m", 2),
-                with("wear", "left_relative_per_run", 1e-4)});
+  const std::vector<Effect> both = combined(
+      {with("wheelbase", "relative", 0.02), with("fast_turning", "factor", 2), with("slippery_floor", "friction", 0.5),
+       with("bump", "x_m", 1)},
+      {with("wheelbase", "relative", 0.01), with("fast_turning", "factor", 1.5),
+       with("slippery_floor", "friction", 0.1), with("bump", "x_m", 2), with("wear", "left_relative_per_run", 1e-4)});
   ASSERT_EQ(both.size(), 6u);
   EXPECT_NEAR(both[0].values.numbers[0], 0.03, 1e-15) << "departures from neutral are added";
   EXPECT_NEAR(both[1].values.numbers[0], 2.5, 1e-15);

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "gap/output/diagnosis_json.h"
+#include "gap/replay/command_response.h"
 #include "tests/gap/subject.h"
 
 namespace umbsim::gap {
@@ -113,6 +114,38 @@ TEST(WeakCause, MotorsThatLagByFifteenMilliseconds) {
   const ParameterEstimate e = estimate(d, "lag_s");
   EXPECT_NEAR(e.value, 0.015, 0.15 * 0.015);
   EXPECT_TRUE(holds(e, 0.015));
+}
+
+constexpr double kDroop = 0.17;  // rad/s per N m: the LabMate's motors then lag by 20 ms, 43 kg R^2 / 2 times that
+
+// A slope moves no robot on rigid tyres. Motors that give way turn faster downhill than they are told, by droop times
+// m g sin(slope) R / 2, and the counts say which way that is.
+TEST(WeakCause, ASlopeThatCountsAloneShow) {
+  const double slope_rad = 0.02, downhill_rad = 1.1;
+  const Subject p(campaign({effect("floor_slope", {{"slope_rad", slope_rad}, {"downhill_rad", downhill_rad}}),
+                            effect("motor_response", {{"droop_radps_per_nm", kDroop}})},
+                           90));
+  const double expected_radps = kDroop * 42 * 9.81 * std::sin(slope_rad) * 0.075 / 2;
+  const RecordedRobot& robot = p.recording.robot;
+  for (const RecordedRun& run : p.recording.runs) {
+    if (run.payload_kg) continue;
+    const Eigen::Vector2d by_heading =
+        command_response(run, robot, counted_rad(run, robot), 2 * M_PI / robot.ticks_per_revolution).by_heading_radps;
+    std::cout << fmt::format("{}: {:.5f} rad/s at {:.4f} rad, expected {:.5f} at {}\n", run.id, by_heading.norm(),
+                             std::atan2(by_heading.y(), by_heading.x()), expected_radps, downhill_rad);
+    EXPECT_NEAR(by_heading.norm(), expected_radps, 0.03 * expected_radps);
+    EXPECT_NEAR(std::atan2(by_heading.y(), by_heading.x()), downhill_rad, 0.03);
+  }
+  const Diagnosis d = p.diagnosed();
+  ASSERT_EQ(d.causes.front().name, "floor_slope");
+  EXPECT_TRUE(holds(estimate(d, "slope_rad"), slope_rad));
+  EXPECT_TRUE(holds(estimate(d, "downhill_rad"), downhill_rad));
+}
+
+// On level ground the same motors lag behind what speeds the robot up, and that is all.
+TEST(WeakCause, MotorsThatGiveWayOnLevelGround) {
+  const Subject p(campaign({effect("motor_response", {{"droop_radps_per_nm", kDroop}})}, 91));
+  EXPECT_EQ(p.diagnosed().causes.front().name, "motor_response");
 }
 
 // A hole alone is fitted so that it makes up for the radii where it can, and a wheel comes across it or not by

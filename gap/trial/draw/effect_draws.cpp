@@ -263,7 +263,7 @@ std::vector<std::string> strength_parameters(const std::string& effect) {
       {"load_shift", {"payload_kg"}},
       {"wear", {"left_relative_per_run", "right_relative_per_run"}},
       {"backlash", {"left_rad", "right_rad"}},
-      {"motor_response", {"lag_s", "deadband_radps", "gain_asymmetry", "torque_limit_nm"}},
+      {"motor_response", {"lag_s", "deadband_radps", "gain_asymmetry", "torque_limit_nm", "droop_radps_per_nm"}},
       {"over_acceleration", {"factor"}},
       {"fast_turning", {"factor"}},
       {"encoder_resolution", {"ticks_per_revolution"}},
