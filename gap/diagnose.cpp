@@ -57,6 +57,12 @@ Diagnosis diagnosed(const Model& model, const std::set<std::string>& excluded, c
   return d;
 }
 
+// Nothing, or what counts show.
+bool names_no_pose(const Diagnosis& d) {
+  return !d.detected || std::all_of(d.explanation.hypotheses.begin(), d.explanation.hypotheses.end(),
+                                    [](const Hypothesis& h) { return shows_in_counts(h); });
+}
+
 }  // namespace
 
 // Differences of engines may be all that is there, and they take what mends them from beside a cause. They are no
@@ -72,7 +78,7 @@ Diagnosis diagnose(Model& model, const std::set<std::string>& excluded, const Th
     progress("for another engine: " + stage, share);
   };
   Diagnosis again = diagnosed(another, excluded, t, progress_again);
-  const bool hidden = again.before_mm <= most_hidden_mm(another);
+  const bool hidden = names_no_pose(again) && again.before_mm <= most_hidden_mm(another);
   if (first.not_fitted || (cause.name == "unknown" && !hidden)) {
     first.simulated_s = again.simulated_s;
     return first;

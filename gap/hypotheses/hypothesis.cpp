@@ -171,19 +171,20 @@ Hypothesis on_soft_tyres(Hypothesis hypothesis) {
   return hypothesis;
 }
 
+constexpr double kGivesWay_s = 0.01;  // typical time constant of a speed control in proportion
+
 // A slope pulls on motors, which turn faster downhill than they are told if they give way: as much as they lag when the
 // robot speeds up.
 Hypothesis on_motors_that_give_way(Hypothesis hypothesis, double motor_inertia_kgm2) {
   hypothesis.variant += ", motors that give way";
   const Eigen::Index own = Eigen::Index(hypothesis.parameters.size());
-  constexpr double kTypical_s = 0.01;  // of the control's time constant
   hypothesis.parameters.push_back({"log motor_response.droop", 0, 0.2, 1, -4, 4});
   const EffectInfo& motor = find_effect("motor_response");
   const std::size_t droop = index_of(motor, "droop_radps_per_nm");
   const double most = motor.parameters[droop].bounds.max;
   hypothesis.with = [=, &motor](const Eigen::VectorXd& p) {
     Effect response = neutral_effect(motor);
-    response.values.numbers[droop] = std::min(most, kTypical_s / motor_inertia_kgm2 * std::exp(p[own]));
+    response.values.numbers[droop] = std::min(most, kGivesWay_s / motor_inertia_kgm2 * std::exp(p[own]));
     return std::vector<Effect>{response};
   };
   return hypothesis;
@@ -221,6 +222,8 @@ std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revol
       direct("motor_response", "lag", {positive("lag_s", 0.05, 0.1)}),
       direct("motor_response", "gain", {signed_one("gain_asymmetry", 0.01, 0.05)}),
       direct("motor_response", "deadband", {positive("deadband_radps", 0.02, 0.05)}),
+      direct("motor_response", "droop",
+             {positive("droop_radps_per_nm", kGivesWay_s / motor_inertia_kgm2, 2 * kGivesWay_s / motor_inertia_kgm2)}),
       direct("encoder_missed_counts", "right", {positive("right_probability", 1e-3, 0.005)}),
       direct("encoder_missed_counts", "left", {positive("left_probability", 1e-3, 0.005)}),
       both_miss(),
