@@ -68,9 +68,14 @@ def measured(out, name):
     return [pose(u[d]["centroid_x_m"], u[d]["centroid_y_m"], u[d]["heading_rad"]) for d in ("cw", "ccw")]
 
 
+def unwrapped(text):
+    """Lines of a text whose continuations are indented by more than two blanks."""
+    return re.sub(r"\n {3,}", " ", text).splitlines()
+
+
 def description(out, name):
     """`umbsim effects NAME` as Markdown."""
-    lines = open(os.path.join(out, name + ".txt")).read().splitlines()
+    lines = unwrapped(open(os.path.join(out, name + ".txt")).read())
     stage = re.search(r"\((.*)\)", lines[0]).group(1)
     text = [f"## {name}", "", lines[1].strip(), ""]
     facts, parameters = {"stage": stage}, []
@@ -89,7 +94,7 @@ def description(out, name):
 
 
 def main(out, page):
-    names = [line.split()[0] for line in open(os.path.join(out, "list")) if line.strip()]
+    names = [line.split()[0] for line in open(os.path.join(out, "list")) if line[:1].strip()]
     rows, sections = [], []
     for name in names:
         exact = [pose(*ORACLES[name](cw)) for cw in (True, False)] if name in ORACLES else ["-", "-"]

@@ -9,7 +9,7 @@ trap 'rm -rf "$out"' EXIT
 
 "$umbsim" effects > "$out/list"
 # shellcheck disable=SC2013  # words
-for name in $(awk '{print $1}' "$out/list"); do
+for name in $(awk '/^[a-z]/ {print $1}' "$out/list"); do
   "$umbsim" effects "$name" > "$out/$name.txt"
   "$umbsim" run "scenarios/effects/$name.yaml" --out "$out/$name" --force > /dev/null
 done
