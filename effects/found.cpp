@@ -32,6 +32,7 @@ constexpr UnitPair kUnits[] = {{"1", "%", 100},
                                {"N m", "N m", 1},
                                {"N s", "N s", 1},
                                {"rad/s", "rad/s", 1},
+                               {"rad/s per N m", "rad/s per N m", 1},
                                {"m/N", "µm/N", 1e6}};
 
 const EffectParameter& parameter_of(const EffectInfo& info, const std::string& name) {

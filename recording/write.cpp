@@ -5,9 +5,9 @@
 
 #include "core/error.h"
 #include "core/text/text_file.h"
+#include "core/text/yaml_text.h"
 #include "recording/names.h"
 #include "recording/run_writer.h"
-#include "recording/yaml_text.h"
 
 namespace umbsim {
 namespace {

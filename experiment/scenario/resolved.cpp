@@ -2,9 +2,9 @@
 
 #include <map>
 
+#include "core/text/yaml_text.h"
 #include "experiment/scenario/read_course.h"
 #include "experiment/scenario/scenario.h"
-#include "recording/yaml_text.h"
 
 namespace umbsim {
 namespace {
@@ -14,10 +14,9 @@ std::string optional_line(const char* key, const std::optional<double>& value) {
 }
 
 std::string odometry_block(const OdometryChoice& o) {
-  const std::string lines = optional_line("left_radius_m", o.left_radius_m) +
-                            optional_line("right_radius_m", o.right_radius_m) +
-                            optional_line("wheelbase_m", o.wheelbase_m) +
-                            (o.scrub > 0 ? fmt::format("  scrub: {}\n", o.scrub) : "");
+  const std::string lines =
+      optional_line("left_radius_m", o.left_radius_m) + optional_line("right_radius_m", o.right_radius_m) +
+      optional_line("wheelbase_m", o.wheelbase_m) + (o.scrub > 0 ? fmt::format("  scrub: {}\n", o.scrub) : "");
   return lines.empty() ? "odometry: {}  # the URDF's nominal dimensions\n" : "odometry:\n" + lines;
 }
 

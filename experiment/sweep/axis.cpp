@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "recording/yaml_text.h"
+#include "core/text/yaml_text.h"
 
 namespace umbsim {
 namespace {
@@ -70,8 +70,10 @@ void read_range(Axis& axis, const YamlValue& value, bool may_sample) {
   if (step && axis.logarithmic) step->fail("has no meaning with scale: log; give a count");
   if (may_sample && count) count->fail("has no meaning here: this design samples a range as often as `samples` says");
   if (may_sample && step) step->fail("has no meaning here: this design samples a range as often as `samples` says");
-  if (count) add_count(axis, *count);
-  else if (step) add_steps(axis, *step);
+  if (count)
+    add_count(axis, *count);
+  else if (step)
+    add_steps(axis, *step);
   else if (!may_sample)
     value.fail("must have count or step; only latin_hypercube and sobol sample a range without them");
 }

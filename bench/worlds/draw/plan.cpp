@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "core/text/yaml_reader.h"
+#include "core/text/yaml_text.h"
 #include "recording/names.h"
-#include "recording/yaml_text.h"
 
 namespace umbsim::worlds {
 namespace {

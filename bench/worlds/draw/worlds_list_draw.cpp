@@ -8,7 +8,7 @@
 #include "bench/worlds/draw/answer.h"
 #include "bench/worlds/draw/worlds_list.h"
 #include "core/error.h"
-#include "recording/yaml_text.h"
+#include "core/text/yaml_text.h"
 
 namespace umbsim::worlds {
 namespace {

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "core/text/yaml_reader.h"
+#include "core/text/yaml_text.h"
 #include "recording/names.h"
-#include "recording/yaml_text.h"
 
 namespace umbsim {
 namespace {

@@ -1,4 +1,4 @@
-#include "recording/yaml_text.h"
+#include "core/text/yaml_text.h"
 
 #include <fmt/format.h>
 
