@@ -117,14 +117,16 @@ Json worth_of(const Cause& cause, const Diagnosis& d) {
   return json;
 }
 
-// Effects of the twin that show in commands or counts, and move no pose of held-out runs beyond the noise.
+// What is found that shows in commands or counts, and moves no pose of held-out runs beyond the noise.
 Json remarks_of(const Diagnosis& d) {
   Json remarks = Json::array();
-  for (std::size_t i = 0; i < d.twin.hypotheses.size(); ++i) {
-    const std::string& effect = d.twin.hypotheses[i].effect;
-    if (!shows_in_counts(d.twin.hypotheses[i])) continue;
+  const auto& twin = d.twin.hypotheses;
+  for (const Hypothesis& h : d.explanation.hypotheses) {
+    if (!shows_in_counts(h)) continue;
+    const auto at = std::find_if(twin.begin(), twin.end(), [&](const Hypothesis& t) { return t.effect == h.effect; });
+    const std::size_t i = std::size_t(at - twin.begin());
     const bool moves = d.closure.known && i < d.closure.worth.size() && d.closure.worth[i].mm > d.noise_floor_mm;
-    if (!moves) remarks.push_back(effect);
+    if (!moves) remarks.push_back(h.effect);
   }
   return remarks;
 }

@@ -148,15 +148,25 @@ std::string worth_on_these_runs(const Diagnosis& d, const std::string& it) {
       it, taken_away(d.before_mm, after_mm));
 }
 
+// Of causes that move no pose.
+std::string shown_by_counts(const Diagnosis& d) {
+  const auto& hypotheses = d.causes.front().fit.hypotheses;
+  const bool counts =
+      std::all_of(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& h) { return shows_in_counts(h); });
+  return counts ? " It shows in what the wheels count against their commands." : "";
+}
+
 std::string worth(const Diagnosis& d) {
   const bool several = d.causes.front().fit.hypotheses.size() > 1;
   const std::string it = several ? "together they take" : "that takes";
   const Closure& c = d.closure;
   if (c.before_mm == 0) return worth_on_these_runs(d, it);
-  if (!c.known) return "No track strays by more than noise makes it: there is nothing to take away.";
+  if (!c.known)
+    return "No track strays by more than noise makes it: there is nothing to take away." + shown_by_counts(d);
   if (c.after_mm == c.before_mm) {
     return d.twin_is_nominal()
-               ? fmt::format("But {} nothing away on runs that were held out: the twin goes without.", it)
+               ? fmt::format("But {} nothing away on runs that were held out: the twin goes without.", it) +
+                     shown_by_counts(d)
                : "What it does to each run cannot be reproduced: the twin goes without.";
   }
   std::string text =
