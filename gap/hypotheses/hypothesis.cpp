@@ -247,7 +247,8 @@ std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revol
       drag_beside_middle("right of it", -0.05),
       from_start(direct("slippery_floor", "friction", {{"friction", 0, 2e-4, 0.2, 0.01, 0.8}}), 0.06),
       vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5),
-      on_motors_that_give_way(vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5),
+      // Counts tell slope times droop: how steep it is shall be the lag's to say, not the prior's.
+      on_motors_that_give_way(vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.05, 0.5),
                               motor_inertia_kgm2),
       vector_hypothesis("carpet_drift", "metres_per_metre", "direction_rad", 1e-3, 0.008, 0.5),
   };

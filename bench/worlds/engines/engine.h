@@ -73,6 +73,7 @@ struct EngineSetup {
   Rig rig;                 ///< with all effects applied; rig.pushes is the loop's, not the engine's
   Pose2 X_WB;              ///< where the axle's middle starts
   std::uint64_t seed = 1;  ///< for engines that need random numbers of their own
+  double tuned_kg = 0;     ///< robot that the motors' control is tuned for, without a payload; 0: the rig as it stands
 };
 
 /// One engine of the proving ground: a line of the table `engines()`.

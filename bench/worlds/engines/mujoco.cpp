@@ -41,6 +41,7 @@ std::unique_ptr<Engine> build(const EngineSetup& setup, const EngineOptions& opt
   o.servo_time_s = number("servo_time_s");
   o.armature_over_wheel = number("armature_over_wheel");
   o.joint_damping = number("joint_damping");
+  o.tuned_kg = setup.tuned_kg;
   return std::make_unique<Mujoco>(setup, o);
 }
 

@@ -34,6 +34,7 @@ std::unique_ptr<Engine> build(const EngineSetup& setup, const EngineOptions& opt
   o.integral_time_s = options.numbers.at("integral_time_s");
   o.rotor_over_wheel = options.numbers.at("rotor_over_wheel");
   o.load_time_s = options.numbers.at("load_time_s");
+  o.tuned_kg = setup.tuned_kg;
   return std::make_unique<Planar>(setup, o);
 }
 

@@ -88,7 +88,8 @@ DrivenRun drive_run(const World& w, const Drive& drive, std::size_t number) {
   const Rig rig = rig_of(w, drive, number);
   const RecordedRun& planned = w.runs.recording.runs[number];
   const Pose2 X_WS{0, 0, planned.start_heading_rad.value_or(0)};
-  const std::unique_ptr<Engine> engine = w.engine->build({rig, X_WS, drive.seed}, w.options);
+  const std::unique_ptr<Engine> engine =
+      w.engine->build({rig, X_WS, drive.seed, w.robot.model.total_mass_kg()}, w.options);
   const std::unique_ptr<Driver> driver = make_driver(w.driver, commanded_way(w.runs, number, rig.commanded_motion),
                                                      believed(w), {drive.seed, "worlds driver", number});
   // Of each wheel; both together make the heading walk.

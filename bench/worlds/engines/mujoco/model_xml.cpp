@@ -57,7 +57,8 @@ double armature(const Wheel& w, const MujocoOptions& o) { return o.armature_over
 double servo_gain(int i, const Rig& rig, const MujocoOptions& o) {
   const Wheel& w = rig.robot.wheels[std::size_t(i)];
   const double turning_kgm2 = w.spin_inertia_kgm2 + armature(w, o);
-  const double gain = (turning_kgm2 + rig.robot.total_mass_kg() * w.radius_m * w.radius_m / 2) / o.servo_time_s;
+  const double kg = o.tuned_kg > 0 ? o.tuned_kg : rig.robot.total_mass_kg();
+  const double gain = (turning_kgm2 + kg * w.radius_m * w.radius_m / 2) / o.servo_time_s;
   return o.integrator == "Euler" ? std::min(gain, turning_kgm2 / o.step_s) : gain;  // explicit there
 }
 

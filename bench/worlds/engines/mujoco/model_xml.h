@@ -19,7 +19,8 @@ struct MujocoOptions {
   double impedance = 0.95;       ///< solimp's first number; the second is half way from it to 1
   double contact_time_s = 0.01;  ///< solref's time constant; at least two steps
   double contact_damping_ratio = 1;
-  double servo_time_s = 0.02;      ///< of the velocity servos against the robot's inertia
+  double servo_time_s = 0.02;      ///< of the velocity servos against the robot's inertia,
+  double tuned_kg = 0;             ///< which is of this mass, whatever is on board; 0: of the rig's
   double armature_over_wheel = 3;  ///< reflected inertia of motor and gear over the wheel's
   double joint_damping = 0.01;     ///< of the wheels' joints over the servo's gain
 };

@@ -91,7 +91,8 @@ TyreLaw PlanarRobot::law_of(double radius_m, double along, double across) const 
 }
 
 void PlanarRobot::add_wheel(const umbsim::Wheel& wheel, const Motor& motor, const Rig& rig) {
-  const double moved_kgm2 = wheel.spin_inertia_kgm2 + rig.robot.total_mass_kg() * wheel.radius_m * wheel.radius_m / 2;
+  const double kg = options_.tuned_kg > 0 ? options_.tuned_kg : rig.robot.total_mass_kg();
+  const double moved_kgm2 = wheel.spin_inertia_kgm2 + kg * wheel.radius_m * wheel.radius_m / 2;
   const Servo servo{moved_kgm2 / options_.servo_time_s, options_.integral_time_s,
                     options_.rotor_over_wheel * wheel.spin_inertia_kgm2};
   const Eigen::Vector2d ahead = Eigen::Vector2d(wheel.axis.y(), -wheel.axis.x()).normalized();

@@ -29,7 +29,8 @@ struct PlanarOptions {
   double creep = 0.005;                 ///< of every tyre, beside the rig's
   double relaxation_over_radius = 0.4;  ///< way after which a tyre's force has built up
   double contact_damping_ratio = 0.3;   ///< of the robot on its standing tyres
-  double servo_time_s = 0.01;           ///< the motors' control against the robot's inertia
+  double servo_time_s = 0.01;           ///< the motors' control against the robot's inertia,
+  double tuned_kg = 0;                  ///< which is of this mass, whatever is on board; 0: of the rig's
   double integral_time_s = 0.1;
   double rotor_over_wheel = 2;  ///< inertia at the wheel's side of the gear
   double load_time_s = 0.005;   ///< in which loads follow accelerations
