@@ -174,14 +174,17 @@ Hypothesis on_soft_tyres(Hypothesis hypothesis) {
 constexpr double kGivesWay_s = 0.01;  // typical time constant of a speed control in proportion
 
 // A slope pulls on motors, which turn faster downhill than they are told if they give way: as much as they lag when the
-// robot speeds up.
+// robot speeds up. Counts tell slope times droop, in which they are linear, and the lag tells the droop.
 Hypothesis on_motors_that_give_way(Hypothesis hypothesis, double motor_inertia_kgm2) {
   hypothesis.variant += ", motors that give way";
   const Eigen::Index own = Eigen::Index(hypothesis.parameters.size());
-  hypothesis.parameters.push_back({"log motor_response.droop", 0, 0.2, 1, -4, 4});
+  hypothesis.parameters.push_back({"log motor_response.droop", 0, 0.2, 1, -1.5, 4});
   const EffectInfo& motor = find_effect("motor_response");
   const std::size_t droop = index_of(motor, "droop_radps_per_nm");
   const double most = motor.parameters[droop].bounds.max;
+  hypothesis.values = [values = hypothesis.values, own](const Eigen::VectorXd& p) {
+    return values(p.head(own) * std::exp(-p[own]));
+  };
   hypothesis.with = [=, &motor](const Eigen::VectorXd& p) {
     Effect response = neutral_effect(motor);
     response.values.numbers[droop] = std::min(most, kGivesWay_s / motor_inertia_kgm2 * std::exp(p[own]));
@@ -247,7 +250,6 @@ std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revol
       drag_beside_middle("right of it", -0.05),
       from_start(direct("slippery_floor", "friction", {{"friction", 0, 2e-4, 0.2, 0.01, 0.8}}), 0.06),
       vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5),
-      // Counts tell slope times droop: how steep it is shall be the lag's to say, not the prior's.
       on_motors_that_give_way(vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.05, 0.5),
                               motor_inertia_kgm2),
       vector_hypothesis("carpet_drift", "metres_per_metre", "direction_rad", 1e-3, 0.008, 0.5),
