@@ -40,7 +40,7 @@ struct OffCourse {
 void turn(OffCourse& off, const LoopTiming& t, double speed_mps, double from_radps, double to_radps) {
   const int steps = std::max(1, int(std::ceil(t.period_s / t.step_s - kClockSlack_s)));
   const double step_s = t.period_s / steps;
-  const double follow = t.lag_s > 0 ? 1 - std::exp(-step_s / t.lag_s) : 1;
+  const double lag_s = t.lag_s + t.droop_s, follow = lag_s > 0 ? 1 - std::exp(-step_s / lag_s) : 1;
   for (int i = 1; i <= steps; ++i) {
     const double wanted = from_radps + (to_radps - from_radps) * i / steps;
     off.turning_radps += follow * (wanted - off.turning_radps);
@@ -59,7 +59,7 @@ double across_gain(double speed_mps) {
 // The loop is linear for small errors: from any error it goes on growing or shrinking at the rate of its slowest mode.
 // Along the path it is the same loop as for the heading with a smaller gain, and settles where that one does.
 bool settles(const LoopTiming& t, double speed_mps) {
-  const double span_s = std::max({t.period_s, t.sampling_s, t.latency_s, t.lag_s, kLeastSpan_s});
+  const double span_s = std::max({t.period_s, t.sampling_s, t.latency_s, t.lag_s + t.droop_s, kLeastSpan_s});
   const int third = int(std::ceil(kSpans / 3 * span_s / t.period_s));
   const std::vector<int> seen = readings(t, 3 * third);
   std::vector<OffCourse> past;

@@ -23,6 +23,7 @@ struct LoopTiming {
   double sampling_s = 0;   ///< the counters are latched this often; 0: every period
   double latency_s = 0;    ///< a reading is this old when it arrives
   double lag_s = 0;        ///< time constant of the motors
+  double droop_s = 0;      ///< the same of motors that give way under the robot's inertia
   double step_s = 0.02;    ///< of the motors' set-points on their ramp over a period, at most
 };
 

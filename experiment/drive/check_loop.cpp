@@ -27,31 +27,43 @@ struct SlowPart {
 constexpr SlowPart kParts[] = {{"encoders.rate_hz", &LoopTiming::period_s, kFastestLoop_s},
                                {"effects.encoder_sampling.interval_s", &LoopTiming::sampling_s, 0},
                                {"effects.encoder_latency.seconds", &LoopTiming::latency_s, 0},
-                               {"effects.motor_response.lag_s", &LoopTiming::lag_s, 0}};
+                               {"effects.motor_response.lag_s", &LoopTiming::lag_s, 0},
+                               {"effects.motor_response.droop_radps_per_nm", &LoopTiming::droop_s, 0}};
+
+// That each motor moves as the robot speeds up.
+double inertia_kgm2(const Rig& rig) {
+  const double radius_m = std::max(rig.robot.wheels[0].radius_m, rig.robot.wheels[1].radius_m);
+  return rig.robot.total_mass_kg() / 2 * radius_m * radius_m;
+}
+
+// A time of the loop as its key says it.
+double said(const SlowPart& part, double time_s, const Rig& rig) {
+  if (part.member == &LoopTiming::period_s) return 1 / time_s;
+  return part.member == &LoopTiming::droop_s ? time_s / inertia_kgm2(rig) : time_s;
+}
 
 // What each part may be; empty if no part alone is to blame.
-std::vector<std::string> bounds_of(const LoopTiming& timing, double speed_mps) {
+std::vector<std::string> bounds_of(const LoopTiming& timing, const Rig& rig, double speed_mps) {
   std::vector<std::string> bounds;
   for (const SlowPart& part : kParts) {
     const double value = timing.*part.member;
     if (value <= part.good) continue;
     const auto most = limit(timing, part.member, part.good, speed_mps);
     if (!most) continue;
-    if (part.member == &LoopTiming::period_s) {
-      bounds.push_back(fmt::format("{} = {:g} (must be >= {:g})", part.key, 1 / value, rounded_up(1 / *most)));
-    } else {
-      bounds.push_back(fmt::format("{} = {:g} (must be <= {:g})", part.key, value, rounded_down(*most)));
-    }
+    const bool rate = part.member == &LoopTiming::period_s;
+    const double bound = said(part, *most, rig);
+    bounds.push_back(fmt::format("{} = {:g} (must be {} {:g})", part.key, said(part, value, rig),
+                                 rate ? ">=" : "<=", rate ? rounded_up(bound) : rounded_down(bound)));
   }
   return bounds;
 }
 
-std::string values_of(const LoopTiming& timing) {
+std::string values_of(const LoopTiming& timing, const Rig& rig) {
   std::vector<std::string> values;
   for (const SlowPart& part : kParts) {
     const double value = timing.*part.member;
     if (value <= part.good) continue;
-    values.push_back(fmt::format("{} = {:g}", part.key, part.member == &LoopTiming::period_s ? 1 / value : value));
+    values.push_back(fmt::format("{} = {:g}", part.key, said(part, value, rig)));
   }
   return fmt::format("{}: too slow together", fmt::join(values, ", "));
 }
@@ -63,10 +75,9 @@ LoopTiming loop_timing(const Scenario& s, const Rig& rig) {
   timing.period_s = 1 / rig.encoders.rate_hz;
   timing.sampling_s = rig.encoders.sampling_interval_s;
   timing.latency_s = rig.encoders.latency_s;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const Motor& m = rig.drivetrain.motor[i];
-    const double inertia_kgm2 = rig.robot.total_mass_kg() / 2 * std::pow(rig.robot.wheels[i].radius_m, 2);
-    timing.lag_s = std::max(timing.lag_s, m.lag_s + m.droop_radps_per_nm * inertia_kgm2);
+  for (const Motor& m : rig.drivetrain.motor) {
+    timing.lag_s = std::max(timing.lag_s, m.lag_s);
+    timing.droop_s = std::max(timing.droop_s, m.droop_radps_per_nm * inertia_kgm2(rig));
   }
   timing.step_s = s.physics.step_s;
   return timing;
@@ -80,12 +91,12 @@ void check_control_loop(const Scenario& s, const Rig& rig) {
     if (segment.length_m > 0) speed_mps = std::max(speed_mps, segment.speed);
   }
   if (settles(timing, speed_mps) && settles(timing, 0)) return;
-  const std::vector<std::string> bounds = bounds_of(timing, settles(timing, speed_mps) ? 0 : speed_mps);
+  const std::vector<std::string> bounds = bounds_of(timing, rig, settles(timing, speed_mps) ? 0 : speed_mps);
   throw InputError(fmt::format(
       "{}: {}: the control loop that keeps the robot on its course, from the encoders' counts to the motors, runs at "
       "{:g} Hz and is too slow at {:g} m/s: its corrections come so late that they add to the error",
-      s.file, bounds.empty() ? values_of(timing) : fmt::format("{}", fmt::join(bounds, " or ")), 1 / timing.period_s,
-      speed_mps));
+      s.file, bounds.empty() ? values_of(timing, rig) : fmt::format("{}", fmt::join(bounds, " or ")),
+      1 / timing.period_s, speed_mps));
 }
 
 }  // namespace umbsim

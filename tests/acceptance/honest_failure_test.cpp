@@ -165,7 +165,8 @@ INSTANTIATE_TEST_SUITE_P(All, ControlLoop,
                          testing::Values(SlowLoop{"encoders.rate_hz", 2, true},
                                          SlowLoop{"effects.encoder_sampling.interval_s", 0.4, false},
                                          SlowLoop{"effects.encoder_latency.seconds", 0.4, false},
-                                         SlowLoop{"effects.motor_response.lag_s", 1.5, false}),
+                                         SlowLoop{"effects.motor_response.lag_s", 1.5, false},
+                                         SlowLoop{"effects.motor_response.droop_radps_per_nm", 20, false}),
                          [](const auto& loop) {
                            return std::regex_replace(loop.param.key, std::regex("[^a-z]"), "_");
                          });

@@ -189,6 +189,16 @@ TEST_P(Engines, ExpressTheCataloguesEffects) {
   }
 }
 
+// A droop that an engine would not act on is never left out in silence.
+TEST_P(Engines, DroopActsOrIsRefused) {
+  Rig rig = plain_rig(Size::middle);
+  for (Motor& m : rig.drivetrain.motor) m.droop_radps_per_nm = 0.1;
+  if (GetParam() == "ours")
+    EXPECT_NO_THROW(built(rig));
+  else
+    EXPECT_THROW(built(rig), InputError);
+}
+
 std::vector<std::string> names() {
   std::vector<std::string> all;
   for (const EngineKind& kind : engines()) all.push_back(kind.name);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/error.h"
 #include "sim/model/drivetrain.h"
 
 namespace umbsim::worlds {
@@ -10,7 +11,13 @@ namespace umbsim::worlds {
 /// first-order lag. For engines that have no motors of their own; sim/step.cpp does the same.
 class SetPoint {
  public:
-  explicit SetPoint(const Motor& motor) : motor_(motor) {}
+  /// Throws InputError for droop: these engines' motors give way by their own servos' options alone.
+  explicit SetPoint(const Motor& motor) : motor_(motor) {
+    if (motor.droop_radps_per_nm > 0)
+      throw InputError(
+          "effects.motor_response.droop_radps_per_nm: only the engine ours has it (must be 0 in bullet, mujoco and "
+          "planar, whose servos give way by their options)");
+  }
 
   /// The command is going in a straight line to `command_radps`; `part` of the way is behind it after this step.
   double step(double command_radps, double part, double step_s) {
