@@ -30,8 +30,9 @@ void measure(const Context& w, const LeftUnexplained& left, const Fit& best, Dia
   d.noise_floor_mm = 1000 * w.model.noise_floor_m();
 }
 
+// `none_elsewhere`: log evidence of no effect where engines differ by little.
 Diagnosis diagnosed(const Model& model, const std::set<std::string>& excluded, const Thresholds& t,
-                    const ProgressCallback& progress) {
+                    const ProgressCallback& progress, double none_elsewhere) {
   Diagnosis d;
   progress("signatures of the effects", 0);
   Screen screen(model, excluded);
@@ -42,7 +43,8 @@ Diagnosis diagnosed(const Model& model, const std::set<std::string>& excluded, c
   prefer_what_predicts(model, d.causes, t);
   prefer_kinematic(d.causes);
   progress("what no effect explains", 0);
-  const Context context{model, screen, excluded, t, none, left_unexplained(model, none, t)};
+  const Context context{
+      model, screen, excluded, t, none, left_unexplained(model, none, t), std::min(none.log_evidence, none_elsewhere)};
   detect(context, d);
   Fit best = d.causes.front().fit;
   const LeftUnexplained left = left_beside(model, best, t);
@@ -57,6 +59,11 @@ Diagnosis diagnosed(const Model& model, const std::set<std::string>& excluded, c
   return d;
 }
 
+// What takes little away may stand for how engines differ.
+bool takes_more_than_it_leaves(const Closure& closure) {
+  return closure.known && closure.together().mm > closure.after_mm;
+}
+
 // Nothing, or what counts show.
 bool names_no_pose(const Diagnosis& d) {
   return !d.detected || std::all_of(d.explanation.hypotheses.begin(), d.explanation.hypotheses.end(),
@@ -69,15 +76,19 @@ bool names_no_pose(const Diagnosis& d) {
 // excuse for what a cause leaves: that stays unknown.
 Diagnosis diagnose(Model& model, const std::set<std::string>& excluded, const Thresholds& t,
                    const ProgressCallback& progress) {
-  Diagnosis first = diagnosed(model, excluded, t, progress);
+  const Fit none = model.none();
+  Diagnosis first = diagnosed(model, excluded, t, progress, none.log_evidence);
   const Cause& cause = first.causes.front();
-  if (!model.surely_another_engines(cause.fit)) return first;
+  const bool doubtful = model.surely_another_engines(none) && !model.same_engine(cause.fit);
+  const bool another_engines =
+      model.surely_another_engines(cause.fit) || (doubtful && !takes_more_than_it_leaves(first.closure));
+  if (!another_engines) return first;
   Model another = model;
   another.take_for_another_engines();
   const ProgressCallback progress_again = [&](const std::string& stage, double share) {
     progress("for another engine: " + stage, share);
   };
-  Diagnosis again = diagnosed(another, excluded, t, progress_again);
+  Diagnosis again = diagnosed(another, excluded, t, progress_again, none.log_evidence);
   const bool hidden = names_no_pose(again) && again.before_mm <= most_hidden_mm(another);
   if (first.not_fitted || (cause.name == "unknown" && !hidden)) {
     first.simulated_s = again.simulated_s;

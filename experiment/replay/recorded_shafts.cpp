@@ -198,7 +198,7 @@ std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec
   const std::vector<double> asked = obeyed(s, command, late_s);
   const std::vector<double> turned = commanded(s, asked, steps);
   for (std::size_t i = 0; i < s.size(); ++i) angle[i] -= turned[i];
-  if (count_step > 1) angle = between_steps(std::move(angle), turned, k * count_step / 2);
+  angle = between_steps(std::move(angle), turned, k * count_step / 2);
   std::vector<double> speed = half_a_step_later(speeds(averaged(averaged(angle, kDriftHalf), kDriftHalf), s), steps);
   for (std::size_t i = 0; i < s.size(); ++i) speed[i] += asked[i];
   return speed;

@@ -15,7 +15,7 @@ double measured_lag(const RecordedRun& run, const RecordedRobot& robot, int step
 /// Speeds (rad/s) of a shaft at the encoder samples, from what arrived of its rotation through an encoder that reads
 /// late, latches, and misses counts (put back in the mean). Commands, where there are some, give the fine structure
 /// (`lag_s` late), counts the drift; otherwise the counts are smoothed. `count_step`: of counts coarser than they seem
-/// (recording/coarse_counts.h), which then bound the angle by half of it; 1 otherwise.
+/// (recording/coarse_counts.h), 1 otherwise; beside commands counts bound the angle by half of it.
 std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec, const EncoderFaults& faults,
                                  bool left, double lag_s, int steps, double count_step);
 

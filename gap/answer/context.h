@@ -16,9 +16,10 @@ struct Context {
   const Thresholds& thresholds;
   const Fit none;
   const LeftUnexplained left_by_none;
+  const double none_log_evidence;  ///< of no effect; were all engines alike, if that is less: then a gap is no effect's
 
   /// Log evidence over no effect.
-  double explained_by(const Fit& fit) const { return fit.log_evidence - none.log_evidence; }
+  double explained_by(const Fit& fit) const { return fit.log_evidence - none_log_evidence; }
   bool may_name(const std::string& effect) const { return excluded.count(effect) == 0; }
 };
 

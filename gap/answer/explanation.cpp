@@ -132,8 +132,11 @@ bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
 // The fit of what rolls, of what counts show, or of a place or moment that is all that is found, and closes a gap.
 Fit without_contacts(const Context& w, Fit fit, const Closure& closure) {
   if (w.model.taken_for_another_engines() && closure.known && fit.hypotheses.size() == 1 && fit.is_local()) return fit;
+  const auto counted = [](const Hypothesis& h) { return shows_in_counts(h); };
+  const bool shown = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(), counted);
   for (std::size_t i = 0; i < fit.hypotheses.size();) {
-    Fit less = is_contact(fit.hypotheses[i].effect) ? w.model.without(fit, i) : fit;
+    const Hypothesis& h = fit.hypotheses[i];
+    Fit less = is_contact(h.effect) || (shown && !counted(h)) ? w.model.without(fit, i) : fit;
     if (less.hypotheses.size() == fit.hypotheses.size() || counts_lose(w, less, fit))
       ++i;
     else
@@ -181,7 +184,8 @@ void explain(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis
   const bool hidden = hidden_in_noise(w, best, d.closure);
   if (hidden && !name_beside_noise(w, best, d)) return;
   const bool unknown = !hidden && !worth_more_than_rest(w.model, best, d.closure) &&
-                       is_unknown(left, w.explained_by(best), t) && !named_without_fit(w, left, best, d);
+                       is_unknown(left, w.left_by_none, w.explained_by(best), w.model.signature_share(best), t) &&
+                       !named_without_fit(w, left, best, d);
   add_unknown(w, best, unknown, left.all(), d);
   d.left_over = describe_left_over(w.model, best);
   d.explanation = best;

@@ -38,8 +38,8 @@ double late_left(const Model& model, const Fit& fit, const Thresholds& t) {
 }
 
 // Of what is left and explained together a share of s is left where s / (1 - s) of the explained is.
-double beside(double explained, double known, const Thresholds& t) {
-  return std::max(t.detect, (1 - known) / known * explained);
+double beside(double explained, double share, const Thresholds& t) {
+  return std::max(t.detect, share / (1 - share) * explained);
 }
 
 }  // namespace
@@ -47,15 +47,23 @@ double beside(double explained, double known, const Thresholds& t) {
 double LeftUnexplained::all() const { return std::max({steady, lack, sudden, late}); }
 
 LeftUnexplained left_unexplained(const Model& model, const Fit& fit, const Thresholds& t) {
-  return {generic_gain(model, fit) + counts_left(model, fit), lack_of_fit(model, fit, t), sudden_left(model, fit, t),
-          fit.hypotheses.empty() ? 0 : late_left(model, fit, t)};
+  const double generic = generic_gain(model, fit);
+  double density = model.held_density(fit) + generic;
+  for (const std::size_t r : model.all_runs()) density -= model.filter(r).log_det() / 2;
+  return {generic + counts_left(model, fit), lack_of_fit(model, fit, t), sudden_left(model, fit, t),
+          fit.hypotheses.empty() ? 0 : late_left(model, fit, t), density};
 }
 
-double may_be_left(double explained, const Thresholds& t) { return beside(explained, t.known_share, t); }
+double may_be_left(double explained, double engine, const Thresholds& t) {
+  return beside(explained, (1 - t.known_share) * engine, t);
+}
 
-bool is_unknown(const LeftUnexplained& left, double explained, const Thresholds& t) {
-  return left.steady > may_be_left(explained, t) ||
-         std::max({left.lack, left.sudden, left.late}) > beside(explained, t.known_share_of_shakes, t);
+// A cause that is no likelier, beside errors of no particular cause, than these errors alone, is none.
+bool is_unknown(const LeftUnexplained& left, const LeftUnexplained& none, double explained, double engine,
+                const Thresholds& t) {
+  const bool needed = left.density > none.density || left.steady <= t.detect;
+  return !needed || left.steady > may_be_left(explained, engine, t) ||
+         std::max({left.lack, left.sudden, left.late}) > beside(explained, 1 - t.known_share_of_shakes, t);
 }
 
 double enough_to_detect(const std::vector<std::string>& effects, const Thresholds& t) {

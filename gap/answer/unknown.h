@@ -10,10 +10,11 @@ namespace umbsim::gap {
 
 /// What a fit leaves that nothing of the catalogue explains, as log evidence.
 struct LeftUnexplained {
-  double steady = 0;  ///< errors of no particular cause, and counts that stray from commands
-  double lack = 0;    ///< misfit beyond noise, where the noise is known from repeated runs
-  double sudden = 0;  ///< an impulse at a place or at a moment, beyond what a difference of engines makes
-  double late = 0;    ///< readings that do not go with the counts, the same
+  double steady = 0;   ///< errors of no particular cause, and counts that stray from commands
+  double lack = 0;     ///< misfit beyond noise, where the noise is known from repeated runs
+  double sudden = 0;   ///< an impulse at a place or at a moment, beyond what a difference of engines makes
+  double late = 0;     ///< readings that do not go with the counts, the same
+  double density = 0;  ///< log density of the runs under the fit and errors of no particular cause
   double all() const;
 };
 
@@ -23,11 +24,13 @@ LeftUnexplained left_unexplained(const Model& model, const Fit& fit, const Thres
 /// (Model::unsure_of).
 LeftUnexplained left_beside(const Model& model, const Fit& fit, const Thresholds& thresholds);
 
-/// Log evidence that an explanation may leave so before it is called unknown, if it explains `explained`.
-double may_be_left(double explained, const Thresholds& thresholds);
+/// Log evidence that an explanation may leave so before it is called unknown, if it explains `explained`. `engine`: how
+/// far signatures may be off, as a share of what a contact's are off by in another engine (Model::signature_share).
+double may_be_left(double explained, double engine, const Thresholds& thresholds);
 
-/// Whether what is left says that the cause is another one.
-bool is_unknown(const LeftUnexplained& left, double explained, const Thresholds& thresholds);
+/// Whether what is left says that the cause is another one. `none`: what no effect leaves.
+bool is_unknown(const LeftUnexplained& left, const LeftUnexplained& none, double explained, double engine,
+                const Thresholds& thresholds);
 
 /// Log evidence, with prior costs, that effects need to be named on recordings of this engine where there might be no
 /// gap at all.

@@ -98,6 +98,11 @@ class Model {
   bool same_engine(const Fit& fit) const { return fit.prior >= nuisances_.of_another; }
   /// Whether it is open that this engine made them: a real robot's runs are not.
   bool engine_is_open() const { return nuisances_.shared_sds.size() > nuisances_.of_another; }
+  /// By how much less a fit's signatures are off than a contact's in another engine: if it says that this one made the
+  /// recordings.
+  double engine_share(const Fit& fit) const { return same_engine(fit) ? scatter_.same_engine : 1; }
+  /// The same, and of what rolls, which does alike in every engine.
+  double signature_share(const Fit& fit) const { return fit.is_kinematic() ? scatter_.same_engine : engine_share(fit); }
   /// By how much log evidence a fit says that another engine made the runs; 0 where it is not open.
   double another_engine(const Fit& fit) const;
   bool surely_another_engines(const Fit& fit) const;

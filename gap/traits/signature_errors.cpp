@@ -17,7 +17,7 @@ SignatureErrors signature_errors_of(const std::string& effect) {
       {"load_shift",            {{0.1,  0.1,  0.1,  0.1},  0.03, 0.1}},
       {"backlash",              {{0.8,  0.5,  1.0,  1.0},  0.5,  0.5}},
       {"motor_response",        {{0.1,  0.1,  0.1,  0.1},  0.1,  0.1}},
-      {"over_acceleration",     {{0.03, 0.0,  0.0,  0.0},  0.0,  0.2}},
+      {"over_acceleration",     {{0.03, 0.0,  0.0,  0.0},  0.03, 0.2}},
       {"fast_turning",          {{0.03, 0.0,  0.03, 0.03}, 0.0,  0.2}},
       {"encoder_resolution",    {{0.1,  0.06, 0.17, 0.1},  0.3,  0.3}},
       {"encoder_sampling",      {{0.6,  0.6,  1.0,  1.0},  1.0,  0.3}},

@@ -192,6 +192,27 @@ TEST(ReplayOfCoarseTicks, AKnownResolutionIsUndone) {
   EXPECT_GT(without, 4 * with);
 }
 
+// The same of an encoder whose coarseness its owner knows: to a fortieth of a step here.
+TEST(ReplayOfCoarseTicks, StepsThatAreKnownBoundTheAngle) {
+  Scenario s = squares(2, 2);
+  s.encoders.ticks_per_revolution = 360;
+  const Recording recording = run_experiment(s, 0).recording;
+  const double step_m = 2 * M_PI * recording.robot.wheel_radius_m / 360;
+  const Replay replay(scenario_of(recording, "."), recording);
+  double square_rad2 = 0, worst_m = 0;
+  int n = 0;
+  for (std::size_t r = 0; r < recording.runs.size(); ++r) {
+    const std::vector<Pose2> track = replay.poses(r, {});
+    for (std::size_t k = 0; k < track.size(); ++k, ++n)
+      square_rad2 += std::pow(track[k].theta_rad - recording.runs[r].truth[k].X_WB.theta_rad, 2);
+    worst_m = std::max(worst_m, distance_m(track.back(), recording.runs[r].truth.back().X_WB));
+  }
+  const double of_step = std::sqrt(square_rad2 / n) * recording.robot.wheelbase_m / step_m;
+  std::cout << fmt::format("heading off by {:.3f} of a step (rms), ends by up to {:.2f} mm, a step is {:.2f} mm\n",
+                           of_step, 1000 * worst_m, 1000 * step_m);
+  EXPECT_LT(of_step, 0.05);  // 0.12 where the counts are smoothed alone
+}
+
 // A controller that holds the robot where a coarse count changes makes it tremble by a step: no rotation.
 TEST(ReplayOfCommands, AStepToAndFroIsNoGain) {
   for (const double ticks : {70.0, 150.0, 500.0}) {

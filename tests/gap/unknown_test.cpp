@@ -1,4 +1,6 @@
 // Effects that the catalogue lacks, and what makes them known as unknown.
+#include "gap/answer/unknown.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,6 +32,23 @@ TEST(Unknown, NothingWrongHasNeitherImpulsesNorLateReadings) {
   std::cout << "log evidence without any effect: impulse " << impulse << ", late readings " << late << "\n";
   EXPECT_LT(impulse, Thresholds{}.sudden / 2);
   EXPECT_LT(late, Thresholds{}.late / 10);
+}
+
+// What acts through contacts may leave a tenth in another engine, what rolls and what is of this engine a hundredth.
+// Where errors of no particular cause alone are likelier, a cause is none.
+TEST(Unknown, ACauseMayLeaveAsMuchAsEnginesDiffer) {
+  constexpr double kExplained = 1000, kElsewhere = 1, kAtHome = 0.1;
+  const Thresholds t;
+  LeftUnexplained none, left;
+  none.density = -500;
+  left.density = -100;
+  left.steady = 60;
+  EXPECT_FALSE(is_unknown(left, none, kExplained, kElsewhere, t));
+  EXPECT_TRUE(is_unknown(left, none, kExplained, kAtHome, t));
+  left.density = -600;
+  EXPECT_TRUE(is_unknown(left, none, kExplained, kElsewhere, t));
+  left.steady = 1;
+  EXPECT_FALSE(is_unknown(left, none, kExplained, kElsewhere, t)) << "nothing is left that could be another cause";
 }
 
 // A motor's lag explains that counts follow commands late, and not that the tracker saw the robot turn before.
