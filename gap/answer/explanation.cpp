@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "effects/words.h"
 #include "gap/answer/closure.h"
 #include "gap/answer/not_fitted.h"
 #include "gap/answer/twin.h"
@@ -116,6 +117,26 @@ void name_what_foretells(const Context& w, Fit& best, Diagnosis& d) {
   put_first(best, 2 * kAhead, d);
 }
 
+// What is ordinary is needed in the twin beside what brings it to light, such as the grip of a floor on which a robot
+// was driven too hard. It is no cause.
+void leave_the_ordinary_out(const Context& w, Fit& best, Diagnosis& d) {
+  Eigen::Index at = 0;
+  for (std::size_t i = 0; i < best.hypotheses.size() && best.hypotheses.size() > 1; ++i) {
+    const Hypothesis& h = best.hypotheses[i];
+    const Effect effect = effects_of(h, best.p.segment(at, Eigen::Index(h.parameters.size()))).front();
+    at += Eigen::Index(h.parameters.size());
+    const double number = effect.values.numbers.front();
+    if (number <= traits_of(h.effect).ordinary_above) continue;
+    d.limits.push_back(fmt::format(
+        "{}: {} is nothing out of the ordinary, so it is no cause; the twin has it if it foretells held-out runs",
+        words_of(*effect.info).noun,
+        shown(*effect.info, {effect.info->parameters.front().name, number, number, number})));
+    best = d.explanation = w.model.without(best, i);
+    put_first(best, 2 * kAhead, d);
+    return;
+  }
+}
+
 // Whether another engine made recordings whose tracks stray by no more than noise makes them. What contacts do is no
 // gap then: they differ from engine to engine.
 bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
@@ -190,7 +211,10 @@ void explain(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis
   d.left_over = describe_left_over(w.model, best);
   d.explanation = best;
   make_twin(w, unknown, d);
-  if (!unknown) name_what_foretells(w, best, d);
+  if (!unknown) {
+    name_what_foretells(w, best, d);
+    leave_the_ordinary_out(w, best, d);
+  }
   d.remainder = remainder_of(w.model, w.screen, w.none, d, left.all());
 }
 

@@ -55,6 +55,9 @@ struct Traits {
   double error_share = 0;
   unsigned error_looks = kNothing;
   ShownBy shown{};
+  /// Of its first number: above this it is as many a robot or floor is, and no header says so. It may be needed beside
+  /// a cause, and is none.
+  double ordinary_above = std::numeric_limits<double>::infinity();
 };
 
 /// Of a name that is no effect's: none at all.

@@ -107,6 +107,20 @@ TEST(WeakCause, AnotherEnginesTurnsAreNoWheelbase) {
   EXPECT_EQ(d.causes.front().name, "none");
 }
 
+// A floor that grips by 0.4 is as good as many. A robot that turns eight times too fast slips on it: the twin needs the
+// floor, and the cause is the driving.
+TEST(WeakCause, AnOrdinaryFloorIsNone) {
+  const Effect fast = effect("fast_turning", {{"factor", 8}});
+  const Subject p(campaign({fast, effect("slippery_floor", {{"friction", 0.4}})}, 91));
+  const Diagnosis d = p.diagnosed();
+  EXPECT_EQ(d.causes.front().name, "fast_turning");
+  EXPECT_EQ(d.twin.name(), "fast_turning+slippery_floor");
+  EXPECT_EQ(std::count(d.set.begin(), d.set.end(), "fast_turning+slippery_floor"), 1);
+  std::cout << d.causes.front().name << ", twin " << d.twin.name() << ", closure " << d.closure.fraction << "\n";
+  const Subject slippery(campaign({fast, effect("slippery_floor", {{"friction", 0.1}})}, 92));
+  EXPECT_EQ(slippery.diagnosed().causes.front().name, "fast_turning+slippery_floor");
+}
+
 TEST(WeakCause, MotorsThatLagByFifteenMilliseconds) {
   const Subject p(campaign({effect("motor_response", {{"lag_s", 0.015}})}, 79));
   const Diagnosis d = p.diagnosed();
