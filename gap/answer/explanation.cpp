@@ -205,7 +205,7 @@ void explain(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis
   const bool hidden = hidden_in_noise(w, best, d.closure);
   if (hidden && !name_beside_noise(w, best, d)) return;
   const bool unknown = !hidden && !worth_more_than_rest(w.model, best, d.closure) &&
-                       is_unknown(left, w.left_by_none, w.explained_by(best), w.model.signature_share(best), t) &&
+                       is_unknown(left, w.left_by_none, w.explained_by(best), w.model.contacts_differ(best), t) &&
                        !named_without_fit(w, left, best, d);
   add_unknown(w, best, unknown, left.all(), d);
   d.left_over = describe_left_over(w.model, best);

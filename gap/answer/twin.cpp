@@ -45,18 +45,15 @@ void add_nothing(Closure& closure) {
   closure.worth.clear();
 }
 
-// What an explanation leaves may be an error of its model: of a contact's, which differs from engine to engine, or of a
-// tracker's whose frame and clock are free. A place or a moment mends a part of any misfit: what it takes away is not
-// counted.
+// What an explanation leaves may be an error of a tracker's whose frame and clock are free. A place or a moment mends a
+// part of any misfit: what it takes away is not counted.
 bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure) {
-  if (!closure.known) return false;
+  if (!closure.known || !model.tracker_is_free()) return false;
   double worth_mm = closure.together().mm;
   for (std::size_t i = 0; i < fit.hypotheses.size(); ++i) {
     if (fit.hypotheses[i].search_cost > 0) worth_mm -= std::max(0.0, closure.worth[i].mm);
   }
-  const bool more = worth_mm > closure.after_mm;
-  if (!model.tracker_is_free()) return !fit.is_kinematic() && more;
-  return more || (!fit.is_local() && closure.after_mm <= closure.most_noise_mm);
+  return worth_mm > closure.after_mm || (!fit.is_local() && closure.after_mm <= closure.most_noise_mm);
 }
 
 void keep_what_foretells(const Model& model, Fit& twin, Closure& closure) {

@@ -16,8 +16,8 @@ std::vector<Effect> twin_effects(const Fit& fit);
 /// The closure of a twin that is the scenario as it was.
 void add_nothing(Closure& closure);
 
-/// Whether an explanation takes more millimetres off held-out runs than it leaves, or all that is beyond noise, and
-/// what it leaves of the evidence may be an error of its model.
+/// Whether, seen by a tracker whose frame and clock are free, an explanation takes more millimetres off held-out runs
+/// than it leaves, or all that is beyond noise. What it leaves of the evidence may be the tracker.
 bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure);
 
 /// Takes out the effects that foretell held-out runs worse than the others do alone, and on another engine's runs those

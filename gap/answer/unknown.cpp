@@ -38,8 +38,8 @@ double late_left(const Model& model, const Fit& fit, const Thresholds& t) {
 }
 
 // Of what is left and explained together a share of s is left where s / (1 - s) of the explained is.
-double beside(double explained, double share, const Thresholds& t) {
-  return std::max(t.detect, share / (1 - share) * explained);
+double beside(double explained, double known, const Thresholds& t) {
+  return std::max(t.detect, (1 - known) / known * explained);
 }
 
 }  // namespace
@@ -54,16 +54,16 @@ LeftUnexplained left_unexplained(const Model& model, const Fit& fit, const Thres
           fit.hypotheses.empty() ? 0 : late_left(model, fit, t), density};
 }
 
-double may_be_left(double explained, double engine, const Thresholds& t) {
-  return beside(explained, (1 - t.known_share) * engine, t);
+double may_be_left(double explained, bool contacts_differ, const Thresholds& t) {
+  return beside(explained, contacts_differ ? t.known_share_elsewhere : t.known_share, t);
 }
 
 // A cause that is no likelier, beside errors of no particular cause, than these errors alone, is none.
-bool is_unknown(const LeftUnexplained& left, const LeftUnexplained& none, double explained, double engine,
+bool is_unknown(const LeftUnexplained& left, const LeftUnexplained& none, double explained, bool contacts_differ,
                 const Thresholds& t) {
   const bool needed = left.density > none.density || left.steady <= t.detect;
-  return !needed || left.steady > may_be_left(explained, engine, t) ||
-         std::max({left.lack, left.sudden, left.late}) > beside(explained, 1 - t.known_share_of_shakes, t);
+  return !needed || left.steady > may_be_left(explained, contacts_differ, t) ||
+         std::max({left.lack, left.sudden, left.late}) > beside(explained, t.known_share_of_shakes, t);
 }
 
 double enough_to_detect(const std::vector<std::string>& effects, const Thresholds& t) {

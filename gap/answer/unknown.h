@@ -24,12 +24,12 @@ LeftUnexplained left_unexplained(const Model& model, const Fit& fit, const Thres
 /// (Model::unsure_of).
 LeftUnexplained left_beside(const Model& model, const Fit& fit, const Thresholds& thresholds);
 
-/// Log evidence that an explanation may leave so before it is called unknown, if it explains `explained`. `engine`: how
-/// far signatures may be off, as a share of what a contact's are off by in another engine (Model::signature_share).
-double may_be_left(double explained, double engine, const Thresholds& thresholds);
+/// Log evidence that an explanation may leave so before it is called unknown, if it explains `explained`.
+/// `contacts_differ`: Model::contacts_differ.
+double may_be_left(double explained, bool contacts_differ, const Thresholds& thresholds);
 
 /// Whether what is left says that the cause is another one. `none`: what no effect leaves.
-bool is_unknown(const LeftUnexplained& left, const LeftUnexplained& none, double explained, double engine,
+bool is_unknown(const LeftUnexplained& left, const LeftUnexplained& none, double explained, bool contacts_differ,
                 const Thresholds& thresholds);
 
 /// Log evidence, with prior costs, that effects need to be named on recordings of this engine where there might be no

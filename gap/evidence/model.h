@@ -101,8 +101,8 @@ class Model {
   /// By how much less a fit's signatures are off than a contact's in another engine: if it says that this one made the
   /// recordings.
   double engine_share(const Fit& fit) const { return same_engine(fit) ? scatter_.same_engine : 1; }
-  /// The same, and of what rolls, which does alike in every engine.
-  double signature_share(const Fit& fit) const { return fit.is_kinematic() ? scatter_.same_engine : engine_share(fit); }
+  /// Whether a fit's contacts are another engine's, so that they do much otherwise. What rolls does alike in every one.
+  bool contacts_differ(const Fit& fit) const { return !same_engine(fit) && !fit.is_kinematic(); }
   /// By how much log evidence a fit says that another engine made the runs; 0 where it is not open.
   double another_engine(const Fit& fit) const;
   bool surely_another_engines(const Fit& fit) const;

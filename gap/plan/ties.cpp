@@ -116,7 +116,7 @@ Ties find_ties(const Model& model, const Diagnosis& d, const std::set<std::strin
       if (excluded.count(info.name) > 0) {
         // Were it the truth, the first would be named in its place unless what that leaves can be seen.
         const double explained = first.score + t.effect_cost * double(own.size());
-        const double seen = may_be_left(explained, model.signature_share(first.fit), t);
+        const double seen = may_be_left(explained, model.contacts_differ(first.fit), t);
         if (expected_lead(left, signatures.all, rival, effect) <= seen) group.push_back(info.name);
         continue;
       }

@@ -22,9 +22,9 @@ struct Thresholds {
   double noise_error = 0.1;        ///< a misfit larger by this share is no news: three sd of two pairs of repeats
   double variant = 8;              ///< log evidence within which another wheel of the same effect may take part
   double tie = 6;                  ///< log evidence within which two explanations are not told apart
-  double top = 1e-4;         ///< and, of a place or moment, the share of its evidence to which the search finds its top
-  double known_share = 0.9;  ///< of the explainable evidence that named effects must explain in another engine, or the
-                             ///< cause is unknown; in this one, and what rolls, may miss Scatter::same_engine of that,
+  double top = 1e-4;  ///< and, of a place or moment, the share of its evidence to which the search finds its top
+  double known_share = 0.99;  ///< of the explainable evidence that named effects must explain, or the cause is unknown;
+  double known_share_elsewhere = 0.85;  ///< the same of what contacts do in another engine,
   double known_share_of_shakes = 0.67;  ///< and beside what scatters, is sudden or late: there engines differ more
   double sudden = 40;   ///< log evidence of what is sudden, at a place or a moment, that a difference of engines makes,
   double late = 150;    ///< and the same of readings that do not go with the counts

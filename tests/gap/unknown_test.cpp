@@ -34,10 +34,11 @@ TEST(Unknown, NothingWrongHasNeitherImpulsesNorLateReadings) {
   EXPECT_LT(late, Thresholds{}.late / 10);
 }
 
-// What acts through contacts may leave a tenth in another engine, what rolls and what is of this engine a hundredth.
+// What acts through contacts may leave 15 % in another engine, what rolls and what is of this engine 1 %.
 // Where errors of no particular cause alone are likelier, a cause is none.
 TEST(Unknown, ACauseMayLeaveAsMuchAsEnginesDiffer) {
-  constexpr double kExplained = 1000, kElsewhere = 1, kAtHome = 0.1;
+  constexpr double kExplained = 1000;
+  constexpr bool kElsewhere = true, kAtHome = false;
   const Thresholds t;
   LeftUnexplained none, left;
   none.density = -500;
@@ -105,7 +106,9 @@ TEST(Unknown, AnExcludedDoubleIsListedAsSuch) {
 
 // A cable mends a part of any misfit: what it takes away does not speak for what is named beside it.
 TEST(Unknown, WhatAPlaceTakesAwayIsNotCounted) {
-  const Subject p(campaign({}, 64));
+  Recording real = campaign({}, 64);
+  real.truth_heading_sd_rad = 0.002;
+  const Subject p(real);
   Fit fit;
   for (const Hypothesis& f : plain_hypotheses(0.02, 2000)) {
     if (f.effect == "wheelbase") fit.hypotheses.push_back(f);
@@ -123,6 +126,9 @@ TEST(Unknown, WhatAPlaceTakesAwayIsNotCounted) {
   fit.hypotheses.pop_back();
   closure.worth = {{30, 0}};
   EXPECT_FALSE(worth_more_than_rest(p.model, fit, closure)) << "a place alone";
+  fit.hypotheses.front() = plain_hypotheses(0.02, 2000).front();
+  EXPECT_TRUE(worth_more_than_rest(p.model, fit, closure));
+  EXPECT_FALSE(worth_more_than_rest(Subject(campaign({}, 64)).model, fit, closure)) << "a tracker that is known";
 }
 
 // On another engine's runs a radius or a wheelbase may mend its contacts. On this engine's they do not.
