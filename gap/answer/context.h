@@ -16,7 +16,9 @@ struct Context {
   const Thresholds& thresholds;
   const Fit none;
   const LeftUnexplained left_by_none;
-  const double none_log_evidence;  ///< of no effect; were all engines alike, if that is less: then a gap is no effect's
+  /// Of no effect, under whichever says less: this model, or one in which engines differ by little. What engines may
+  /// differ by takes a gap up, and a cause explains that gap all the same.
+  const double none_log_evidence;
 
   /// Log evidence over no effect.
   double explained_by(const Fit& fit) const { return fit.log_evidence - none_log_evidence; }

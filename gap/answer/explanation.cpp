@@ -150,14 +150,15 @@ bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
   return !w.may_name(kUnevenFloor) || !may_be_uneven_floor(w.model, w.none);
 }
 
-// The fit of what rolls, of what counts show, or of a place or moment that is all that is found, and closes a gap.
+// The fit of what counts show, or else of what rolls, or of a place or moment that is all that is found, and closes a
+// gap.
 Fit without_contacts(const Context& w, Fit fit, const Closure& closure) {
   if (w.model.taken_for_another_engines() && closure.known && fit.hypotheses.size() == 1 && fit.is_local()) return fit;
   const auto counted = [](const Hypothesis& h) { return shows_in_counts(h); };
-  const bool shown = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(), counted);
+  const bool any_counted = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(), counted);
   for (std::size_t i = 0; i < fit.hypotheses.size();) {
     const Hypothesis& h = fit.hypotheses[i];
-    Fit less = is_contact(h.effect) || (shown && !counted(h)) ? w.model.without(fit, i) : fit;
+    Fit less = is_contact(h.effect) || (any_counted && !counted(h)) ? w.model.without(fit, i) : fit;
     if (less.hypotheses.size() == fit.hypotheses.size() || counts_lose(w, less, fit))
       ++i;
     else

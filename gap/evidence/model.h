@@ -98,9 +98,6 @@ class Model {
   bool same_engine(const Fit& fit) const { return fit.prior >= nuisances_.of_another; }
   /// Whether it is open that this engine made them: a real robot's runs are not.
   bool engine_is_open() const { return nuisances_.shared_sds.size() > nuisances_.of_another; }
-  /// By how much less a fit's signatures are off than a contact's in another engine: if it says that this one made the
-  /// recordings.
-  double engine_share(const Fit& fit) const { return same_engine(fit) ? scatter_.same_engine : 1; }
   /// Whether a fit's contacts are another engine's, so that they do much otherwise. What rolls does alike in every one.
   bool contacts_differ(const Fit& fit) const { return !same_engine(fit) && !fit.is_kinematic(); }
   /// By how much log evidence a fit says that another engine made the runs; 0 where it is not open.

@@ -98,7 +98,7 @@ void add_clock(const Unsure& unsure, std::size_t run, std::size_t tracker, const
 }  // namespace
 
 Model Model::unsure_of(const Fit& fit) const {
-  const double share = engine_share(fit);
+  const double share = same_engine(fit) ? scatter_.same_engine : 1;
   return unsure_of(fit, [&](const std::string& effect) {
     SignatureErrors off = signature_errors_of(effect);
     for (double& part : off.parts) part *= share;
