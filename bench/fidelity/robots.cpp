@@ -7,7 +7,7 @@
 namespace umbsim::fidelity {
 namespace {
 
-constexpr double kPeriod_s = 0.02;
+constexpr double kHeldPeriod_s = 0.02;
 
 RobotModel with_wheels(RobotModel robot, double radius_m, double wheelbase_m) {
   for (int i = 0; i < 2; ++i) {
@@ -51,17 +51,17 @@ PhysicsOptions rigid(double step_s) {
 }
 
 void hold(World& world, double left_radps, double right_radps, double seconds) {
-  for (int i = 0; i < std::lround(seconds / kPeriod_s); ++i) {
+  for (int i = 0; i < std::lround(seconds / kHeldPeriod_s); ++i) {
     world.command(left_radps, right_radps);
-    world.advance(kPeriod_s);
+    world.advance(kHeldPeriod_s);
   }
 }
 
 void trip(World& world, double left_radps, double right_radps, double seconds, double ramp_s) {
-  const int ramp = int(std::lround(ramp_s / kPeriod_s));
-  for (int i = 1; i <= ramp; ++i) hold(world, left_radps * i / ramp, right_radps * i / ramp, kPeriod_s);
+  const int ramp = int(std::lround(ramp_s / kHeldPeriod_s));
+  for (int i = 1; i <= ramp; ++i) hold(world, left_radps * i / ramp, right_radps * i / ramp, kHeldPeriod_s);
   hold(world, left_radps, right_radps, seconds);
-  for (int i = ramp - 1; i >= 0; --i) hold(world, left_radps * i / ramp, right_radps * i / ramp, kPeriod_s);
+  for (int i = ramp - 1; i >= 0; --i) hold(world, left_radps * i / ramp, right_radps * i / ramp, kHeldPeriod_s);
   hold(world, 0, 0, 0.4);
 }
 

@@ -3,8 +3,6 @@
 namespace umbsim::acceptance {
 namespace {
 
-constexpr int kBadInput = 2;
-
 TEST(CommandLine, HelpOfEverySubcommand) {
   const Desk desk;
   const Outcome top = desk.umbsim({"--help"});

@@ -4,9 +4,6 @@
 namespace umbsim::acceptance {
 namespace {
 
-constexpr int kBadInput = 2;
-constexpr int kRunFailed = 3;
-
 class DefaultFolder : public testing::Test {
  protected:
   void SetUp() override { desk_.put("short.yaml", kShortScenario); }

@@ -6,10 +6,11 @@
 namespace umbsim::acceptance {
 namespace {
 
-const std::string kDocument = std::string(UMBSIM_SOURCE_DIR) + "/docs/recording-format.md";
+const std::string kRecordingPage = std::string(UMBSIM_SOURCE_DIR) + "/docs/recording-format.md";
 
 TEST(RecordingDocument, ItsExampleIsARecording) {
-  const std::vector<std::string> yaml = fenced_blocks(kDocument, "yaml"), csv = fenced_blocks(kDocument, "csv");
+  const std::vector<std::string> yaml = fenced_blocks(kRecordingPage, "yaml"),
+                                 csv = fenced_blocks(kRecordingPage, "csv");
   ASSERT_EQ(yaml.size(), 1u);
   ASSERT_EQ(csv.size(), 2u) << "encoders.csv and truth.csv";
   const Desk desk;

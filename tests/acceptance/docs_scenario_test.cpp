@@ -7,7 +7,7 @@
 namespace umbsim::acceptance {
 namespace {
 
-const std::string kDocument = std::string(UMBSIM_SOURCE_DIR) + "/docs/scenario.md";
+const std::string kScenarioPage = std::string(UMBSIM_SOURCE_DIR) + "/docs/scenario.md";
 
 bool is_whole(const std::string& block) { return block.rfind("format:", 0) == 0; }
 
@@ -17,7 +17,7 @@ Scenario read(const Desk& desk, const std::string& text) {
 
 TEST(ScenarioDocument, EveryExampleIsAccepted) {
   const Desk desk;
-  const std::vector<std::string> blocks = fenced_blocks(kDocument, "yaml");
+  const std::vector<std::string> blocks = fenced_blocks(kScenarioPage, "yaml");
   ASSERT_GE(blocks.size(), 2u);
   for (const std::string& block : blocks) {
     SCOPED_TRACE(block);
@@ -28,7 +28,7 @@ TEST(ScenarioDocument, EveryExampleIsAccepted) {
 // The first whole example shows every key at its default.
 TEST(ScenarioDocument, TheCompleteExampleShowsTheDefaults) {
   const Desk desk;
-  for (const std::string& block : fenced_blocks(kDocument, "yaml")) {
+  for (const std::string& block : fenced_blocks(kScenarioPage, "yaml")) {
     if (!is_whole(block)) continue;
     Scenario shown = read(desk, block), defaults = read(desk, "format: umbsim-scenario/1\n");
     shown.name = defaults.name;
@@ -49,22 +49,25 @@ void collect(const YAML::Node& node, const std::string& above, Keys& keys) {
   for (const auto& entry : node) {
     const std::string key = above + entry.first.Scalar();
     if (key == "effects") continue;
-    if (entry.second.IsMap() && entry.second.size() > 0) collect(entry.second, key + ".", keys);
-    else keys.insert(key);
+    if (entry.second.IsMap() && entry.second.size() > 0)
+      collect(entry.second, key + ".", keys);
+    else
+      keys.insert(key);
   }
 }
 
 TEST(ScenarioDocument, NamesEveryKeyThatTheProgramWrites) {
   const Desk desk;
-  const Scenario s = read(desk, "format: umbsim-scenario/1\nbumps: {count: 1}\n"
-                                "odometry: {left_radius_m: 1, right_radius_m: 1, wheelbase_m: 1}\n"
-                                "noise: {wheel_noise_m_per_sqrt_m: 0.001}\n"
-                                "uncertainty: {left_m_per_sqrt_m: 0.001, right_m_per_sqrt_m: 0.001}\n"
-                                "fixes: [{leg: 1}]\n");
+  const Scenario s = read(desk,
+                          "format: umbsim-scenario/1\nbumps: {count: 1}\n"
+                          "odometry: {left_radius_m: 1, right_radius_m: 1, wheelbase_m: 1}\n"
+                          "noise: {wheel_noise_m_per_sqrt_m: 0.001}\n"
+                          "uncertainty: {left_m_per_sqrt_m: 0.001, right_m_per_sqrt_m: 0.001}\n"
+                          "fixes: [{leg: 1}]\n");
   Keys keys;
   collect(YAML::Load(resolved_yaml(s)), "", keys);
   ASSERT_GT(keys.size(), 40u);
-  const std::string text = text_of(kDocument);
+  const std::string text = text_of(kScenarioPage);
   for (const std::string& key : keys) {
     EXPECT_NE(text.find("`" + key + "`"), std::string::npos) << key << " is not in docs/scenario.md";
   }

@@ -81,7 +81,7 @@ std::set<std::string> anchors_of(const fs::path& page) {
   return anchors;
 }
 
-std::vector<fs::path> pages() {
+std::vector<fs::path> page_files() {
   const fs::path root = UMBSIM_SOURCE_DIR;
   std::vector<fs::path> all{root / "README.md"};
   for (const auto& entry : fs::directory_iterator(root / "docs")) {
@@ -92,7 +92,7 @@ std::vector<fs::path> pages() {
 }
 
 TEST(Pages, HaveNoLongParagraph) {
-  for (const fs::path& page : pages()) {
+  for (const fs::path& page : page_files()) {
     std::ifstream file(page);
     for (const Piece& piece : pieces_of(file))
       EXPECT_LE(piece.words, kMostWords) << page.filename() << ":" << piece.line << ": " << piece.begin;
@@ -108,7 +108,7 @@ TEST(Pages, PiecesAreParagraphsItemsAndRows) {
 
 // "](page.md#heading)" and "](#heading)" of a page lead to a heading that is there.
 TEST(Pages, LinksLeadToHeadings) {
-  for (const fs::path& page : pages()) {
+  for (const fs::path& page : page_files()) {
     std::ifstream file(page);
     for (const std::string& line : prose_of(file)) {
       for (std::size_t at = line.find("]("); at != std::string::npos; at = line.find("](", at + 1)) {
@@ -127,7 +127,7 @@ TEST(Pages, AreInTheIndex) {
   std::ifstream file(fs::path(UMBSIM_SOURCE_DIR) / "docs/README.md");
   std::stringstream index;
   index << file.rdbuf();
-  for (const fs::path& page : pages()) {
+  for (const fs::path& page : page_files()) {
     if (page.filename() == "README.md") continue;
     EXPECT_NE(index.str().find("](" + page.filename().string() + ")"), std::string::npos)
         << page.filename() << " is not in docs/README.md";

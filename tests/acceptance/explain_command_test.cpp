@@ -3,8 +3,6 @@
 namespace umbsim::acceptance {
 namespace {
 
-constexpr int kBadInput = 2;
-
 TEST(ExplainCommand, ShowsWhoCausesWhatAndWritesNothing) {
   const Desk desk;
   const Outcome outcome = desk.umbsim({"explain", shipped("unidirectional_trap"), "--set", "course.side_m=1"});
@@ -19,8 +17,8 @@ TEST(ExplainCommand, WritesAFolderWhereItIsAskedTo) {
   desk.put("short.yaml", kShortScenario);
   const std::vector<std::string> words{"explain", "short.yaml", "--out", "a"};
   ASSERT_EQ(desk.umbsim(words).code, 0);
-  EXPECT_EQ(listing(desk.home / "a"),
-            (std::set<std::string>{"explain.json", "labmate.urdf", "provenance.json", "report.html", "scenario.resolved.yaml"}));
+  EXPECT_EQ(listing(desk.home / "a"), (std::set<std::string>{"explain.json", "labmate.urdf", "provenance.json",
+                                                             "report.html", "scenario.resolved.yaml"}));
   const json e = json_of(desk.home / "a/explain.json");
   EXPECT_EQ(e.at("format"), "umbsim-explanation/1");
   ASSERT_EQ(e.at("effects").size(), 1u);

@@ -4,8 +4,6 @@
 namespace umbsim::acceptance {
 namespace {
 
-constexpr int kBadInput = 2;
-
 /// What a diagnosis wrote, but for the one number that is not the same bytes.
 std::map<std::string, std::string> results_of(const fs::path& folder) {
   auto files = files_of(folder);

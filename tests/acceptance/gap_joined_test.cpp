@@ -4,7 +4,6 @@
 namespace umbsim::acceptance {
 namespace {
 
-constexpr int kBadInput = 2;
 constexpr double kWheelbase = 0.02;  // relative, of the robot that was recorded
 
 class GapJoined : public testing::Test {

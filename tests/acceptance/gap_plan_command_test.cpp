@@ -4,8 +4,6 @@
 namespace umbsim::acceptance {
 namespace {
 
-constexpr int kBadInput = 2;
-
 double probability(const json& confusion, const std::string& truth, const std::string& named) {
   for (std::size_t i = 0; i < confusion["truth"].size(); ++i) {
     if (confusion["truth"][i] != truth) continue;
@@ -20,8 +18,8 @@ double probability(const json& confusion, const std::string& truth, const std::s
 TEST(GapPlan, GeometryIsToldApartOnPlainSquares) {
   const Desk desk;
   desk.put("s.yaml", kShortScenario);
-  const Outcome o = desk.umbsim({"gap", "plan", "s.yaml", "--effects", "wheelbase,wheel_radius_difference", "--no-cache",
-                                 "--severity", "5", "--out", "p"});
+  const Outcome o = desk.umbsim({"gap", "plan", "s.yaml", "--effects", "wheelbase,wheel_radius_difference",
+                                 "--no-cache", "--severity", "5", "--out", "p"});
   ASSERT_EQ(o.code, 0) << o.err;
   EXPECT_EQ(o.err, "") << "quiet in a pipe";
   const json plan = json_of(desk.home / "p/plan.json");

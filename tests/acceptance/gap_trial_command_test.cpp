@@ -3,7 +3,6 @@
 namespace umbsim::acceptance {
 namespace {
 
-constexpr int kBadInput = 2;
 constexpr double kSurely = 0.01;
 
 /// Short drives on one small robot.
@@ -55,8 +54,9 @@ TEST(GapTrialCommand, TheThreeStepsOneAfterAnother) {
   const Outcome scored = desk.umbsim({"gap", "trial", "score", "t"});
   ASSERT_EQ(scored.code, 0) << scored.err;
   expect_says(scored.out, {"sealed before the diagnoses", "false alarm", "UMBmark alone", "guessed from sizes"});
-  EXPECT_EQ(listing(desk.home / "t/score"), (std::set<std::string>{"confusion.csv", "confusion.svg", "provenance.json", "report.html",
-                                                                   "summary.json", "summary.md", "table.txt"}));
+  EXPECT_EQ(listing(desk.home / "t/score"),
+            (std::set<std::string>{"confusion.csv", "confusion.svg", "provenance.json", "report.html", "summary.json",
+                                   "summary.md", "table.txt"}));
   const json summary = json_of(desk.home / "t/score/summary.json");
   EXPECT_EQ(summary.at("figures").at("false_alarm").at("hits"), 0);
   EXPECT_EQ(summary.at("figures").at("false_alarm").at("cases"), 8);

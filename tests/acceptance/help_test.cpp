@@ -7,7 +7,6 @@
 namespace umbsim::acceptance {
 namespace {
 
-constexpr int kBadInput = 2;
 constexpr std::size_t kColumns = 80;
 
 using Words = std::vector<std::string>;

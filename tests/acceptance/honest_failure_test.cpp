@@ -8,9 +8,6 @@
 namespace umbsim::acceptance {
 namespace {
 
-constexpr int kBadInput = 2;
-constexpr int kRunFailed = 3;
-
 /// A robot whose heavy part stands high above its axle: wheels of 0.1 m, 0.4 m apart, a ball 0.3 m ahead.
 const char* const kTall = R"(<robot name="tall">
 <link name="hull">

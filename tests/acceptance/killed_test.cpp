@@ -9,7 +9,7 @@
 namespace umbsim::acceptance {
 namespace {
 
-constexpr int kKills = 12;
+constexpr int kKillsOfRuns = 12;
 
 struct Command {
   const char* name;
@@ -36,7 +36,7 @@ class Killed : public testing::Test {
     const unsigned seed = std::random_device{}();
     SCOPED_TRACE("moments from seed " + std::to_string(seed));
     std::mt19937 random(seed);
-    for (int i = 0; i < kKills; ++i) {
+    for (int i = 0; i < kKillsOfRuns; ++i) {
       {
         Running program(desk_, again);
         std::this_thread::sleep_for(

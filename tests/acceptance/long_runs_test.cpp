@@ -10,8 +10,6 @@
 namespace umbsim::acceptance {
 namespace {
 
-constexpr int kRunFailed = 3;
-
 // The most memory that the program had, in MB.
 double peak_mb(const Desk& desk, const std::vector<std::string>& words) {
   std::vector<std::string> all{UMBSIM_PROGRAM};

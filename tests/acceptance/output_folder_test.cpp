@@ -6,9 +6,6 @@
 namespace umbsim::acceptance {
 namespace {
 
-constexpr int kBadInput = 2;
-constexpr int kRunFailed = 3;
-
 class OutputFolder : public testing::Test {
  protected:
   void SetUp() override { desk_.put("short.yaml", kShortScenario); }

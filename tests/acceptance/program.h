@@ -19,6 +19,9 @@ namespace umbsim::acceptance {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+// Exit codes (docs/outputs).
+constexpr int kBadInput = 2, kRunFailed = 3;
+
 inline std::string text_of(const fs::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
@@ -134,8 +137,6 @@ inline void expect_says(const std::string& message, const std::vector<std::strin
 }
 
 /// What was wrapped for the terminal, in whole lines again.
-inline std::string unwrapped(const std::string& text) {
-  return std::regex_replace(text, std::regex("\n +"), " ");
-}
+inline std::string unwrapped(const std::string& text) { return std::regex_replace(text, std::regex("\n +"), " "); }
 
 }  // namespace umbsim::acceptance

@@ -4,8 +4,6 @@
 namespace umbsim::acceptance {
 namespace {
 
-constexpr int kBadInput = 2;
-
 /// Runs the program on `desk` and expects it to refuse, saying `parts`, in one line, and to write nothing.
 void expect_refusal(const Desk& desk, const std::vector<std::string>& words, const std::vector<std::string>& parts) {
   const std::set<std::string> before = listing(desk.home);
@@ -26,34 +24,48 @@ struct BadScenario {
 };
 
 const BadScenario kBadScenarios[] = {
-    {"UnknownKey", "format: umbsim-scenario/1\ncourse: {side_m: 2}\ncours: {side_m: 2}\n",
+    {"UnknownKey",
+     "format: umbsim-scenario/1\ncourse: {side_m: 2}\ncours: {side_m: 2}\n",
      {"bad.yaml:3:1: ", "cours", "unknown key", "did you mean 'course'?"}},
-    {"UnknownInnerKey", "format: umbsim-scenario/1\ncourse:\n  side_m: 2\n  side: 3\n",
+    {"UnknownInnerKey",
+     "format: umbsim-scenario/1\ncourse:\n  side_m: 2\n  side: 3\n",
      {"bad.yaml:4:3: ", "course.side", "did you mean 'side_m'?"}},
-    {"DuplicateKey", "format: umbsim-scenario/1\ncourse: {side_m: 2}\ncourse: {side_m: 3}\n",
+    {"DuplicateKey",
+     "format: umbsim-scenario/1\ncourse: {side_m: 2}\ncourse: {side_m: 3}\n",
      {"bad.yaml:3:1: ", "course", "duplicate key"}},
-    {"DuplicateInnerKey", "format: umbsim-scenario/1\ncourse:\n  side_m: 2\n  laps: 1\n  side_m: 2\n",
+    {"DuplicateInnerKey",
+     "format: umbsim-scenario/1\ncourse:\n  side_m: 2\n  laps: 1\n  side_m: 2\n",
      {"bad.yaml:5:3: ", "side_m", "duplicate key"}},
-    {"BelowRange", "format: umbsim-scenario/1\ncourse: {side_m: -2}\n",
+    {"BelowRange",
+     "format: umbsim-scenario/1\ncourse: {side_m: -2}\n",
      {"bad.yaml:2:18: ", "course.side_m", "-2", "must be > 0 and <= 1000"}},
-    {"AboveRange", "format: umbsim-scenario/1\nencoders:\n  rate_hz: 1e9\n",
+    {"AboveRange",
+     "format: umbsim-scenario/1\nencoders:\n  rate_hz: 1e9\n",
      {"bad.yaml:3:12: ", "encoders.rate_hz", "1e9", "must be >= 1 and <= 10000"}},
-    {"NotFinite", "format: umbsim-scenario/1\nfloor: {friction: .nan}\n",
+    {"NotFinite",
+     "format: umbsim-scenario/1\nfloor: {friction: .nan}\n",
      {"bad.yaml:2:19: ", "floor.friction", "finite", ".nan"}},
     {"NotANumber", "format: umbsim-scenario/1\ncourse: {side_m: 4 m}\n", {"bad.yaml:2:18: ", "course.side_m", "'4 m'"}},
-    {"NotAnInteger", "format: umbsim-scenario/1\nruns: {per_direction: 2.5}\n",
+    {"NotAnInteger",
+     "format: umbsim-scenario/1\nruns: {per_direction: 2.5}\n",
      {"bad.yaml:2:23: ", "runs.per_direction", "integer", "'2.5'"}},
-    {"UnknownChoice", "format: umbsim-scenario/1\ncourse: {turn: pirouette}\n",
+    {"UnknownChoice",
+     "format: umbsim-scenario/1\ncourse: {turn: pirouette}\n",
      {"bad.yaml:2:16: ", "course.turn", "'pirouette'", "in_place, arc"}},
-    {"UnknownEffect", "format: umbsim-scenario/1\neffects:\n  wheelbas: {relative: 0.1}\n",
+    {"UnknownEffect",
+     "format: umbsim-scenario/1\neffects:\n  wheelbas: {relative: 0.1}\n",
      {"bad.yaml:3:3: ", "effects.wheelbas", "did you mean 'wheelbase'?"}},
-    {"EffectOutOfRange", "format: umbsim-scenario/1\neffects:\n  wheelbase: {relative: 7}\n",
+    {"EffectOutOfRange",
+     "format: umbsim-scenario/1\neffects:\n  wheelbase: {relative: 7}\n",
      {"bad.yaml:3:25: ", "effects.wheelbase.relative", "7", "must be >= -0.5 and <= 0.5"}},
-    {"DirectionTwice", "format: umbsim-scenario/1\nruns: {directions: [cw, cw]}\n",
+    {"DirectionTwice",
+     "format: umbsim-scenario/1\nruns: {directions: [cw, cw]}\n",
      {"bad.yaml:2:25: ", "runs.directions[1]", "twice"}},
-    {"BumpsOnNoLeg", "format: umbsim-scenario/1\nbumps: {leg: 5}\n",
+    {"BumpsOnNoLeg",
+     "format: umbsim-scenario/1\nbumps: {leg: 5}\n",
      {"bad.yaml:2:14: ", "bumps.leg", "must be >= 1 and <= 4"}},
-    {"ArcTooWide", "format: umbsim-scenario/1\ncourse: {turn: arc, side_m: 1, turn_radius_m: 0.5}\n",
+    {"ArcTooWide",
+     "format: umbsim-scenario/1\ncourse: {turn: arc, side_m: 1, turn_radius_m: 0.5}\n",
      {"bad.yaml:2:47: ", "course.turn_radius_m: 0.5", "< side_m / 2"}},
     {"OtherFormat", "format: umbsim-scenario/9\n", {"bad.yaml:1:9: ", "format", "umbsim-scenario/1"}},
     {"NotYaml", "format: [umbsim-scenario/1\n", {"bad.yaml:"}},
@@ -159,8 +171,9 @@ TEST(Refusal, OfSeveralSettingsTheBadOneIsNamed) {
                 {"umbsim: --set effects.wheelbas.relative=0: effects.wheelbas: ", "did you mean 'wheelbase'?"});
   }
   // A value of the file that a setting does not fit to: both are named. One that is bad anyway: the file alone.
-  expect_says(refusal({"run", "short.yaml"}, {"--set", "course.turn=arc", "--set", "course.turn_radius_m=1"}),
-              {"umbsim: --set course.turn_radius_m=1: course.turn_radius_m: 1 does not fit into a square of side_m = 0.5"});
+  expect_says(
+      refusal({"run", "short.yaml"}, {"--set", "course.turn=arc", "--set", "course.turn_radius_m=1"}),
+      {"umbsim: --set course.turn_radius_m=1: course.turn_radius_m: 1 does not fit into a square of side_m = 0.5"});
   EXPECT_EQ(refusal({"run", "bad.yaml"}, {}).rfind("umbsim: bad.yaml:12:19: floor.friction: -1", 0), 0u)
       << refusal({"run", "bad.yaml"}, {});
 }

@@ -7,8 +7,6 @@
 namespace umbsim::acceptance {
 namespace {
 
-constexpr int kBadInput = 2;
-
 const fs::path kPublic = fs::path(UMBSIM_SHARED_DIR) / "robots";
 
 struct Expected {

@@ -4,7 +4,6 @@
 namespace umbsim::acceptance {
 namespace {
 
-constexpr int kBadInput = 2;
 constexpr std::size_t kColumns = 80;
 
 void expect_refused(const Desk& desk, const std::vector<std::string>& words, const std::vector<std::string>& parts) {
@@ -21,7 +20,8 @@ TEST(Shipped, ScenariosRunByName) {
     const Outcome outcome = desk.umbsim({"run", name, "--set", "course.side_m=0.5", "--set", "runs.per_direction=1"});
     ASSERT_EQ(outcome.code, 0) << name << outcome.err;
   }
-  EXPECT_EQ(listing(desk.home / "results"), (std::set<std::string>{"index.html", "latest", "nominal", "wheelbase", "wheelbase-2"}));
+  EXPECT_EQ(listing(desk.home / "results"),
+            (std::set<std::string>{"index.html", "latest", "nominal", "wheelbase", "wheelbase-2"}));
   expect_says(text_of(desk.home / "results/nominal/provenance.json"), {shipped("nominal")});
   EXPECT_EQ(desk.umbsim({"explain", "wheelbase", "--set", "course.side_m=0.5"}).code, 0);
 }

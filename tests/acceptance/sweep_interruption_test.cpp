@@ -8,7 +8,7 @@
 namespace umbsim::acceptance {
 namespace {
 
-constexpr int kKills = 20;
+constexpr int kKillsOfSweeps = 20;
 // Seconds of work: most kills hit it at work.
 constexpr int kWheelbases = 200;
 
@@ -38,7 +38,7 @@ TEST_F(Interrupted, KilledTwentyTimesAtRandom) {
   const fs::path store = desk_.home / "killed/sweep.sqlite";
   std::int64_t before = 0;
   int kept = 0;
-  for (int kills = 0; kills < kKills; ++kills) {
+  for (int kills = 0; kills < kKillsOfSweeps; ++kills) {
     Running program(desk_, {"sweep", "tiny_sweep.yaml", "--out", "killed"});
     // On average two sweeps' worth of work in all: some kills hit right after the start, some find it finished.
     pause_s(std::uniform_real_distribution<>(0, whole_s / 5)(random));

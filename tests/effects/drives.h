@@ -13,6 +13,9 @@
 
 namespace umbsim::testing {
 
+/// The nominal LabMate.
+constexpr double kRadius_m = 0.075, kWheelbase_m = 0.340;
+
 /// The nominal LabMate's square with these effects (the YAML of the map `effects:`), 1e6 ticks per revolution.
 inline ExperimentResult drive(const std::string& effects, std::vector<std::string> settings = {}) {
   settings.insert(settings.begin(), "effects={" + effects + "}");

@@ -8,13 +8,14 @@ namespace {
 
 using testing::drive;
 using testing::error_after;
+using testing::kRadius_m;
+using testing::kWheelbase_m;
 using testing::run_of;
 using testing::segments;
 using testing::text;
 using testing::truth_at;
 using testing::wheel_rad;
 
-constexpr double kRadius_m = 0.075, kWheelbase_m = 0.340;
 // The play's ends are reached at rest but for the driver's last small corrections, relative to the play.
 constexpr double kPlay = 0.02;
 // Of an odometry that sees everything: the contact's mobility and the ticks' rounding.

@@ -8,15 +8,17 @@ namespace umbsim {
 namespace {
 
 using testing::drive;
+using testing::kRadius_m;
+using testing::kWheelbase_m;
 using testing::nominal_odometry;
 using testing::run_of;
 using testing::segments;
 using testing::square_run;
 using testing::text;
 
-constexpr double kRadius_m = 0.075, kWheelbase_m = 0.340;
-constexpr double kNothing_m = 2e-6, kNothing_rad = 2e-6;  // contact mobility, rounding of 1e6 ticks per revolution
-constexpr double kSigmas = 4;                             // of a seeded experiment: once in 16 000
+constexpr double kCountRounding_m = 2e-6,
+                 kCountRounding_rad = 2e-6;  // contact mobility, rounding of 1e6 ticks per revolution
+constexpr double kSigmas = 4;                // of a seeded experiment: once in 16 000
 
 double tick_m(double ticks) { return 2 * M_PI * kRadius_m / ticks; }
 
@@ -31,7 +33,8 @@ TEST(EncoderResolution, HeadingIsWithinATick) {
       // The recording counts in the ticks that the scenario believes in, several at once.
       OdometryParameters recorded = r.odometry;
       recorded.ticks_per_revolution = r.recording.robot.ticks_per_revolution;
-      EXPECT_LE(std::abs(std::remainder(double(run.encoders.back().left_ticks), recorded.ticks_per_revolution / ticks)), 0.5);
+      EXPECT_LE(std::abs(std::remainder(double(run.encoders.back().left_ticks), recorded.ticks_per_revolution / ticks)),
+                0.5);
       const std::vector<Pose2> odometry = testing::calculated(run, recorded);
       for (const TruthSample& t : run.truth) {
         const double e = t.X_WB.theta_rad - odometry[std::size_t(std::lround(t.time_s * 50))].theta_rad;
@@ -42,8 +45,8 @@ TEST(EncoderResolution, HeadingIsWithinATick) {
     std::cout << fmt::format("{} ticks: heading within {:.5f} of the bound {:.5f} rad, rms {:.6f}; return {}\n", ticks,
                              worst / bound, bound, rms, text(r.cw.errors[0]));
     EXPECT_EQ(r.odometry.ticks_per_revolution, ticks) << "the odometry knows";
-    EXPECT_LE(worst, bound + kNothing_rad);
-    EXPECT_LE(std::abs(r.cw.heading_rad), bound + kNothing_rad);
+    EXPECT_LE(worst, bound + kCountRounding_rad);
+    EXPECT_LE(std::abs(r.cw.heading_rad), bound + kCountRounding_rad);
     if (last > 0) {
       EXPECT_LT(rms, last / 2) << "four times the ticks";
     }
@@ -68,8 +71,8 @@ TEST(EncoderSampling, CostsNothingWhereCurvatureIsConstant) {
   for (const double interval_s : {0.02, 0.06, 0.1}) {
     const ExperimentResult r = drive(fmt::format("encoder_sampling: {{interval_s: {}}}", interval_s));
     std::cout << fmt::format("interval {} s: return {}\n", interval_s, text(r.ccw.errors[0]));
-    EXPECT_LT(r.ccw.r_cg_m, kNothing_m);
-    EXPECT_LT(std::abs(r.ccw.heading_rad), kNothing_rad);
+    EXPECT_LT(r.ccw.r_cg_m, kCountRounding_m);
+    EXPECT_LT(std::abs(r.ccw.heading_rad), kCountRounding_rad);
   }
 }
 
@@ -144,18 +147,18 @@ TEST(EncoderMissedCounts, AreARadiusErrorInTheMean) {
 
 // At the probability k w the leg is short by k times the mean of w, weighted with the way: w (1 - ramp v / (3 L)).
 TEST(EncoderMissedCounts, GrowWithSpeed) {
-  constexpr double k = 0.001, kTicks = 100000, kSide_m = 4;
+  constexpr double k = 0.001, kTicks = 100000, kSquare_m = 4;
   for (const double v : {0.1, 0.2, 0.4}) {
     const ExperimentResult r = drive(fmt::format("encoder_missed_counts: {{probability_per_radps: {}}}", k),
                                      {fmt::format("encoders.ticks_per_revolution={}", kTicks), "runs.directions=[ccw]",
                                       fmt::format("course.linear_speed_mps={}", v)});
     const Segment leg = segments(r, Direction::ccw)[0];
-    const double short_m = testing::truth_at(run_of(r, "ccw-1"), testing::rest_after(leg, 0.1)).x_m - kSide_m;
-    const double p = k * v / kRadius_m * (1 - leg.ramp_s * v / (3 * kSide_m));
-    const double sd_m = std::sqrt(p / kSide_m / tick_m(kTicks) / 2) * kSide_m * tick_m(kTicks);
+    const double short_m = testing::truth_at(run_of(r, "ccw-1"), testing::rest_after(leg, 0.1)).x_m - kSquare_m;
+    const double p = k * v / kRadius_m * (1 - leg.ramp_s * v / (3 * kSquare_m));
+    const double sd_m = std::sqrt(p / kSquare_m / tick_m(kTicks) / 2) * kSquare_m * tick_m(kTicks);
     std::cout << fmt::format("{} m/s: leg too long by {:.4f} mm, expected {:.4f} +- {:.4f}\n", v, 1e3 * short_m,
-                             1e3 * kSide_m * p / (1 - p), 1e3 * sd_m);
-    EXPECT_NEAR(short_m, kSide_m * p / (1 - p), kSigmas * sd_m + 0.01 * kSide_m * p);
+                             1e3 * kSquare_m * p / (1 - p), 1e3 * sd_m);
+    EXPECT_NEAR(short_m, kSquare_m * p / (1 - p), kSigmas * sd_m + 0.01 * kSquare_m * p);
   }
 }
 
@@ -207,8 +210,8 @@ TEST(EncoderLatency, TurnsOvershootAndNothingIsLeftAtTheReturn) {
       if (acceleration > 10) {
         EXPECT_NEAR(most, full, 0.1 * full) << "a sudden stop";
       }
-      EXPECT_LT(r.ccw.r_cg_m, kNothing_m);
-      EXPECT_LT(std::abs(r.ccw.heading_rad), kNothing_rad);
+      EXPECT_LT(r.ccw.r_cg_m, kCountRounding_m);
+      EXPECT_LT(std::abs(r.ccw.heading_rad), kCountRounding_rad);
     }
   }
 }

@@ -19,9 +19,9 @@ using testing::rig_with;
 using testing::Statics;
 using testing::TrialDrive;
 
-constexpr double kCreep = 0.02, kSlope_rad = 0.02;
+constexpr double kFloorCreep = 0.02, kSlope_rad = 0.02;
 // What "rigid" contact gives way to the weight's 8 N, at 1e-9 m/s per newton, in ten seconds; the same as an angle.
-constexpr double kRigid_m = 4e-7, kRigid_rad = 4e-7;
+constexpr double kHeldDownhill_m = 4e-7, kHeldDownhill_rad = 4e-7;
 
 // Creeping downhill on a leg of odometry `distance_m` along x: wheels push against the weight's slope component, each
 // creeps by C F_i / N_i. The weight acts ahead of the axle, so the wheels must hold its yaw as well.
@@ -37,8 +37,8 @@ Pose2 creep_downhill(const RobotModel& robot, double downhill_rad, double distan
     const double wheels_n = m * down - (base_kg * down * x_b + tip_kgm * gx) / x_c;
     const double left_n = wheels_n / 2 + tip_kgm * gy / b, right_n = wheels_n / 2 - tip_kgm * gy / b;
     const double left_f = -m * gx / 2 + base_kg * x_b * gy / b, right_f = -m * gx / 2 - base_kg * x_b * gy / b;
-    const double left = 1 - kCreep * left_f / left_n, right = 1 - kCreep * right_f / right_n;
-    const double across = kCreep * m * gy / wheels_n;
+    const double left = 1 - kFloorCreep * left_f / left_n, right = 1 - kFloorCreep * right_f / right_n;
+    const double across = kFloorCreep * m * gy / wheels_n;
     const double forward = (left + right) / 2, turn = (right - left) / b * ds, middle = X.theta_rad + turn / 2;
     X.x_m += (forward * std::cos(middle) - across * std::sin(middle)) * ds;
     X.y_m += (forward * std::sin(middle) + across * std::cos(middle)) * ds;
@@ -66,28 +66,28 @@ SlopeError slope_error(double creep, double downhill_rad, double start_rad = 0) 
 TEST(FloorSlope, DoesNothingToARollingRobotWithoutCreep) {
   for (const double downhill_rad : {0.0, 1.0, -2.0}) {
     const Pose2 error = slope_error(0, downhill_rad).added;
-    EXPECT_NEAR(std::hypot(error.x_m, error.y_m), 0, kRigid_m);
-    EXPECT_NEAR(error.theta_rad, 0, kRigid_rad);
+    EXPECT_NEAR(std::hypot(error.x_m, error.y_m), 0, kHeldDownhill_m);
+    EXPECT_NEAR(error.theta_rad, 0, kHeldDownhill_rad);
   }
 }
 
 TEST(FloorSlope, CreepsDownhill) {
   constexpr double kShare = 0.002;  // 20 ms steps; loads by first-order statics
   for (const double downhill_rad : {0.0, 1.0, M_PI / 2, 3.0, -1.0}) {
-    const auto [e, before_rad] = slope_error(kCreep, downhill_rad);
+    const auto [e, before_rad] = slope_error(kFloorCreep, downhill_rad);
     const Pose2 expected = creep_downhill(rig_with().robot, downhill_rad, 2, before_rad);
     std::cout << "downhill " << downhill_rad << ": " << e.x_m << ", " << e.y_m << " m, " << e.theta_rad << " rad ("
               << expected.x_m << ", " << expected.y_m << ", " << expected.theta_rad << ")\n";
     const double size_m = std::hypot(expected.x_m, expected.y_m);
     EXPECT_NEAR(e.x_m, expected.x_m, kShare * size_m);
     EXPECT_NEAR(e.y_m, expected.y_m, kShare * size_m);
-    EXPECT_NEAR(e.theta_rad, expected.theta_rad, kShare * std::abs(expected.theta_rad) + kRigid_rad);
+    EXPECT_NEAR(e.theta_rad, expected.theta_rad, kShare * std::abs(expected.theta_rad) + kHeldDownhill_rad);
   }
 }
 
 TEST(FloorSlope, BelongsToTheFloor) {
-  const Pose2 a = slope_error(kCreep, 1).added, turned = slope_error(kCreep, 1.7, 0.7).added;
-  const Pose2 mirrored = slope_error(kCreep, -1).added;
+  const Pose2 a = slope_error(kFloorCreep, 1).added, turned = slope_error(kFloorCreep, 1.7, 0.7).added;
+  const Pose2 mirrored = slope_error(kFloorCreep, -1).added;
   const Pose2 expected = Pose2{0, 0, 0.7} * Pose2{a.x_m, a.y_m, 0};
   EXPECT_NEAR(turned.x_m, expected.x_m, 1e-9);
   EXPECT_NEAR(turned.y_m, expected.y_m, 1e-9);
@@ -154,8 +154,8 @@ TEST(Bump, TurnsTheRobotTowardsTheBumpedWheelAtItsPlace) {
       drive.go(0.1, 0, 2);
       EXPECT_NEAR(drive.error().theta_rad, step_rad, 1e-6) << "nor after";
       std::cout << "bump " << height_m << ", side " << side << ": " << step_rad << " rad ("
-                << side * gain_m / kWheelbase_m << ", "
-                << 100 * (side * step_rad * kWheelbase_m / gain_m - 1) << " %)\n";
+                << side * gain_m / kWheelbase_m << ", " << 100 * (side * step_rad * kWheelbase_m / gain_m - 1)
+                << " %)\n";
       EXPECT_NEAR(step_rad, side * gain_m / kWheelbase_m, kModel * gain_m / kWheelbase_m);
     }
   }
@@ -242,7 +242,7 @@ TEST(Push, BelowTheFrictionLimitNothingMoves) {
     drive.go(0, 0, 2);
     return std::hypot(drive.error().x_m, drive.error().y_m) + std::abs(drive.error().theta_rad);
   };
-  EXPECT_LT(moved_m(6), kRigid_m);
+  EXPECT_LT(moved_m(6), kHeldDownhill_m);
   EXPECT_GT(moved_m(60), 1e-3);
 }
 

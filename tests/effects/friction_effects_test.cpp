@@ -23,8 +23,8 @@ constexpr double kNoSlip_m = 1e-7;  // "rigid" contact, 1e-9 m/s per newton
 /// The robot of round numbers, for moments about the line on which its wheels stand.
 struct Tipping {
   double m = 42, base_kg = 40, x_b = 0.06, x_c = 0.25;
-  double height_m = kRadius_m + 0.05;                   ///< of the base's centre of mass
-  double spin_kgm2 = 2 * kRadius_m * kRadius_m / 2;     ///< both wheels
+  double height_m = kRadius_m + 0.05;                             ///< of the base's centre of mass
+  double spin_kgm2 = 2 * kRadius_m * kRadius_m / 2;               ///< both wheels
   double share() const { return 1 - base_kg * x_b / (m * x_c); }  ///< of the weight, on the wheels at rest
 
   /// Acceleration a with m a = mu N: braking and starting load caster and wheels differently. sense: +1 starting.
@@ -85,24 +85,24 @@ DrivenRun driven(const std::string& name, const std::vector<std::string>& settin
   return drive_run(scenario, robot, initial_odometry(scenario, robot), {"run", direction, false, 0});
 }
 
-Pose2 end(const DrivenRun& d) { return d.run.truth.back().X_WB; }
+Pose2 last_pose(const DrivenRun& d) { return d.run.truth.back().X_WB; }
 
 TEST(OverAcceleration, StopsSlipFirst) {
   const double stop = Tipping{}.limit_mps2(0.4, -1);  // a start still holds there, and the caster stays down
   EXPECT_LT(1.1 * stop, 0.4 * kG * Tipping{}.share());
   const auto slipping = [](double a_mps2) {
-    return driven("effects/over_acceleration",
-                  {"course.side_m=2", "course.linear_speed_mps=1", "course.angular_acceleration_radps2=0.1",
-                   "physics.step_s=0.02",  // long enough that the robot's nod as it sets off is over within a step
-                   "effects.slippery_floor.friction=0.4",
-                   "effects.over_acceleration.factor=" + std::to_string(a_mps2 / 0.25)},
-                  Direction::ccw);
+    return driven(
+        "effects/over_acceleration",
+        {"course.side_m=2", "course.linear_speed_mps=1", "course.angular_acceleration_radps2=0.1",
+         "physics.step_s=0.02",  // long enough that the robot's nod as it sets off is over within a step
+         "effects.slippery_floor.friction=0.4", "effects.over_acceleration.factor=" + std::to_string(a_mps2 / 0.25)},
+        Direction::ccw);
   };
   const DrivenRun below = slipping(0.95 * stop), above = slipping(1.1 * stop);
   std::cout << "limit of stopping " << stop << " m/s2: slipping steps below " << below.cost.newton_steps << ", above "
             << above.cost.newton_steps << "\n";
   EXPECT_EQ(below.cost.newton_steps, 0);
-  EXPECT_LT(std::hypot(end(below).x_m, end(below).y_m), 1e-4);
+  EXPECT_LT(std::hypot(last_pose(below).x_m, last_pose(below).y_m), 1e-4);
   EXPECT_GT(above.cost.newton_steps, 4) << "at every stop";
 }
 
@@ -135,8 +135,8 @@ TEST(FastTurning, IsTheDemandOfTurnsOnly) {
     const DrivenRun calm = driven("effects/fast_turning", {"course.side_m=1", slow}, direction);
     const DrivenRun fast = driven("effects/fast_turning", {"course.side_m=1"}, direction);
     EXPECT_EQ(calm.cost.newton_steps, 0);
-    EXPECT_LT(std::hypot(end(calm).x_m, end(calm).y_m), 1e-4);
-    EXPECT_GT(std::hypot(end(fast).x_m, end(fast).y_m), 1e-3);
+    EXPECT_LT(std::hypot(last_pose(calm).x_m, last_pose(calm).y_m), 1e-4);
+    EXPECT_GT(std::hypot(last_pose(fast).x_m, last_pose(fast).y_m), 1e-3);
   }
 }
 

@@ -9,12 +9,14 @@ namespace {
 
 using testing::drive;
 using testing::expect_near;
+using testing::kRadius_m;
+using testing::kWheelbase_m;
 using testing::nominal_odometry;
 using testing::square_run;
 using testing::text;
 using testing::TrueRobot;
 
-constexpr double kRadius_m = 0.075, kWheelbase_m = 0.340, kPath_m = 16;
+constexpr double kPath_m = 16;
 // The driver's pose correction takes the return path a little differently than the ideal square: 1e-4 of the error.
 constexpr double kKinematic_m = 0.1e-3, kKinematic_rad = 2e-5;
 // Effects of first order whose second order is not in the formula: relative to the figure.

@@ -9,16 +9,18 @@ namespace {
 
 using testing::drive;
 using testing::error_after;
+using testing::kRadius_m;
+using testing::kWheelbase_m;
 using testing::run_of;
 using testing::segments;
 using testing::truth_at;
 using testing::wheel_rad;
 
-constexpr double kRadius_m = 0.075, kWheelbase_m = 0.340, kSide_m = 4;
+constexpr double kSide_m = 4;
 // Toe: terms of the third order in toe, and the slips at the leg's start and stop, relative to the formula.
 constexpr double kBalance = 0.02;
 // Eccentricity, relative to e / b: what is of second order in e / R and in the step.
-constexpr double kRipple = 0.03, kSecondOrder = 0.06;
+constexpr double kRipple = 0.03, kRippleSecondOrder = 0.06;
 
 struct Toe {
   double left, right, along, across;
@@ -52,8 +54,7 @@ TEST(WheelMisalignment, DriftsAndLosesDistanceAsForcesBalance) {
         t.left, t.right, t.along, t.across, 1e3 * e.y_m, 1e3 * sideways_m, -1e3 * e.x_m, 1e3 * lost_m,
         1e3 * e.theta_rad, 1e3 * turn_rad);
     EXPECT_NEAR(e.y_m, sideways_m, kBalance * std::abs(sideways_m) + 1e-6);
-    EXPECT_NEAR(-e.x_m, lost_m, kBalance * std::abs(lost_m) + 4e-6)
-        << "micrometres of creep at start and stop";
+    EXPECT_NEAR(-e.x_m, lost_m, kBalance * std::abs(lost_m) + 4e-6) << "micrometres of creep at start and stop";
     EXPECT_NEAR(e.theta_rad, turn_rad, kBalance * std::abs(turn_rad) + 2e-6);
   }
 }
@@ -101,7 +102,7 @@ TEST(WheelEccentricity, IsExactKinematicsOfTheRecordedTicks) {
         std::cout << fmt::format(
             "e {}, {} mm, step {} s, {}: off kinematics by {:.4f} mm, {:.4f} mrad; e / b {:.4f} mrad\n", 1e3 * c[0],
             1e3 * c[1], step_s, id, 1e3 * off.metres, 1e3 * off.radians, 1e3 * limit_rad);
-        EXPECT_LT(off.radians, kSecondOrder * limit_rad);
+        EXPECT_LT(off.radians, kRippleSecondOrder * limit_rad);
         // The axle's middle sways as the robot rolls (R e / b) and pitches (R e / 0.5 m), there and back: 0.8 e at
         // most.
         EXPECT_LT(off.metres, 0.8 * (c[0] + c[1]) + 6 * off.radians);

@@ -13,8 +13,8 @@ namespace umbsim {
 namespace {
 
 constexpr double kRate_hz = 50;
-constexpr double kLeg_s = 10;
-constexpr double kTurn_s = 2.5;
+constexpr double kSeenLeg_s = 10;
+constexpr double kSeenTurn_s = 2.5;
 constexpr double kSpeed_mps = 0.2;
 
 // A square driven from the origin, at any time.
@@ -22,11 +22,11 @@ Pose2 square_at(double time_s) {
   Pose2 pose;
   double left_s = std::max(0.0, time_s);
   for (int leg = 0; leg < 4 && left_s > 0; ++leg) {
-    const double on_leg = std::min(left_s, kLeg_s);
+    const double on_leg = std::min(left_s, kSeenLeg_s);
     pose = pose * Pose2{kSpeed_mps * on_leg, 0, 0};
     left_s -= on_leg;
-    const double turning = std::min(left_s, kTurn_s);
-    pose = pose * Pose2{0, 0, M_PI / 2 * turning / kTurn_s};
+    const double turning = std::min(left_s, kSeenTurn_s);
+    pose = pose * Pose2{0, 0, M_PI / 2 * turning / kSeenTurn_s};
     left_s -= turning;
   }
   return pose;
@@ -47,7 +47,7 @@ std::pair<double, double> largest_error(const Seen& how) {
   const auto robot_at = [&](double t) {
     return Pose2{how.drift_per_s.x_m * t, how.drift_per_s.y_m * t, how.drift_per_s.theta_rad * t} * square_at(t);
   };
-  for (int i = 0; i / kRate_hz < 4 * (kLeg_s + kTurn_s); ++i) {
+  for (int i = 0; i / kRate_hz < 4 * (kSeenLeg_s + kSeenTurn_s); ++i) {
     EncoderSample s;
     s.time_s = i / kRate_hz;
     run.encoders.push_back(s);

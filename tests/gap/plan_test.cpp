@@ -37,8 +37,8 @@ Recording driven(const std::vector<std::string>& kinds, bool commands = true) {
   return all;
 }
 
-struct Subject {
-  explicit Subject(Recording r)
+struct PlannedSubject {
+  explicit PlannedSubject(Recording r)
       : recording(std::move(r)),
         replay(scenario_of(recording, "."), recording),
         campaign(campaign_of(recording)),
@@ -70,15 +70,17 @@ constexpr double kSamplingError =
     0.05;  // four standard errors of a quarter over 400 draws, halved by the mean, and the noise
 
 TEST(Plan, PlainSquaresDoNotTellSoftTyresFromSmallWheelsAndAPayloadDoes) {
-  EXPECT_NEAR(Subject(driven({"plain"})).alike("tyre_compliance", "wheel_radius_scale"), kOneSignature, kSamplingError);
-  const double with_payload = Subject(driven({"plain", "loaded"})).alike("tyre_compliance", "wheel_radius_scale");
+  EXPECT_NEAR(PlannedSubject(driven({"plain"})).alike("tyre_compliance", "wheel_radius_scale"), kOneSignature,
+              kSamplingError);
+  const double with_payload =
+      PlannedSubject(driven({"plain", "loaded"})).alike("tyre_compliance", "wheel_radius_scale");
   EXPECT_GE(with_payload, 0);
   EXPECT_LT(with_payload, kAlike);
 }
 
 TEST(Plan, MissedCountsAreRadiiUnlessCommandsShowThem) {
-  const double without = Subject(driven({"plain"}, false)).alike("encoder_missed_counts", "wheel_radius_scale");
-  const double with = Subject(driven({"plain"})).alike("encoder_missed_counts", "wheel_radius_scale");
+  const double without = PlannedSubject(driven({"plain"}, false)).alike("encoder_missed_counts", "wheel_radius_scale");
+  const double with = PlannedSubject(driven({"plain"})).alike("encoder_missed_counts", "wheel_radius_scale");
   EXPECT_NEAR(without, kOneSignature, kSamplingError);
   EXPECT_LT(with, kAlike);
 }
@@ -86,13 +88,13 @@ TEST(Plan, MissedCountsAreRadiiUnlessCommandsShowThem) {
 TEST(Plan, PlainSquaresDoNotTellCarpetFromSlope) {
   PlanOptions options;
   options.effects = {"carpet_drift", "floor_slope"};
-  const Subject s(driven({"plain"}));
+  const PlannedSubject s(driven({"plain"}));
   const Plan p = plan(s.model, s.recording.runs.size(), kScatter, options);
   EXPECT_EQ(p.given.separated, 0);
 }
 
 TEST(Plan, ARotatedStartTellsCarpetFromGeometry) {
-  const Subject s(driven({"plain", "rotated"}));
+  const PlannedSubject s(driven({"plain", "rotated"}));
   for (const char* geometry : {"wheel_misalignment", "wheel_radius_difference", "wheelbase"}) {
     const double alike = s.alike("carpet_drift", geometry);
     EXPECT_GE(alike, 0) << geometry;

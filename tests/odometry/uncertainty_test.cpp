@@ -4,16 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include <iostream>
-
 #include <Eigen/LU>
+#include <iostream>
 
 #include "core/random.h"
 
 namespace umbsim {
 namespace {
 
-constexpr double kRoundOff = 1e-12;
 constexpr double kBase_m = 0.34;
 
 Pose2 moved(const Pose2& from, double left_m, double right_m) {
@@ -26,8 +24,15 @@ TEST(ArcJacobians, AreTheDerivativesOfTheArc) {
   constexpr double kStep = 1e-5, kCentral = 1e-8;  // error of a central difference: step^2, and round-off over step
   const Pose2 from{1.2, -0.7, 0.9};
   double worst = 0;
-  for (const auto& [left, right] : {std::pair{0.3, 0.3}, {0.3, 0.31}, {-0.2, 0.2}, {0.004, 0.0040001}, {0.0, 0.5},
-                                    {-0.4, -0.1}, {0.2, 2.5}, {0.1, 0.1 + 0.0067}, {0.1, 0.1 + 0.0069}}) {
+  for (const auto& [left, right] : {std::pair{0.3, 0.3},
+                                    {0.3, 0.31},
+                                    {-0.2, 0.2},
+                                    {0.004, 0.0040001},
+                                    {0.0, 0.5},
+                                    {-0.4, -0.1},
+                                    {0.2, 2.5},
+                                    {0.1, 0.1 + 0.0067},
+                                    {0.1, 0.1 + 0.0069}}) {
     const ArcJacobians j = arc_jacobians(from, left, right, kBase_m);
     for (int i = 0; i < 5; ++i) {
       const auto shifted = [&](double by) {

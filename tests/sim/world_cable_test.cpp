@@ -19,7 +19,7 @@ using testing::small_robot;
 
 // Soft contacts, the blow of the climb, a finite step: the bar of the project.
 constexpr double kModelError = 0.04;
-constexpr double kMirror = 1e-9;
+constexpr double kCableMirror = 1e-9;
 
 double path_gain(double R, double r) { return 2 * (R + r) * std::acos((R - r) / (R + r)) - 4 * std::sqrt(R * r); }
 
@@ -69,7 +69,7 @@ void expect_closed_form(const RobotModel& robot, double speed_mps, double fricti
               << " deg (" << degrees(expected_rad) << ", " << 100 * (magnitude_rad / expected_rad - 1)
               << " %), solver fallbacks " << left.cost.solver_fallbacks + right.cost.solver_fallbacks << "\n";
     EXPECT_NEAR(magnitude_rad, expected_rad, kModelError * expected_rad) << "speed " << sense * speed_mps;
-    EXPECT_NEAR(left.heading_error_rad, -right.heading_error_rad, kMirror);
+    EXPECT_NEAR(left.heading_error_rad, -right.heading_error_rad, kCableMirror);
   }
 }
 
@@ -130,7 +130,7 @@ TEST(WorldCable, BesideTheWheelItDoesNothing) {
   with_cable.lay_cable(cable);
   drive(bare, 1, 1, 4);
   drive(with_cable, 1, 1, 4);
-  EXPECT_NEAR(with_cable.pose().theta_rad, bare.pose().theta_rad, kMirror);
+  EXPECT_NEAR(with_cable.pose().theta_rad, bare.pose().theta_rad, kCableMirror);
   EXPECT_NEAR(with_cable.wheel_centre(0).z(), 0.075, 1e-6);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using testing::PlanePose;
 
-constexpr double kRoundOff = 1e-9;
+constexpr double kCourseRoundOff = 1e-9;
 
 Course arc_course() {
   Course course;
@@ -28,29 +28,29 @@ TEST(Plan, DurationsAreThoseOfTrapezia) {
   ASSERT_EQ(plan.segments().size(), 8u);
   const double leg_s = 4 / 0.2 + 0.2 / 0.25;  // L / v + v / a
   const double turn_s = (M_PI / 2) / 0.7 + 0.7 / 1.5;
-  EXPECT_NEAR(plan.segments()[0].duration_s, leg_s, kRoundOff);
-  EXPECT_NEAR(plan.segments()[1].duration_s, turn_s, kRoundOff);
-  EXPECT_NEAR(plan.duration_s(), 4 * (leg_s + turn_s) + 8 * c.dwell_s, kRoundOff);
+  EXPECT_NEAR(plan.segments()[0].duration_s, leg_s, kCourseRoundOff);
+  EXPECT_NEAR(plan.segments()[1].duration_s, turn_s, kCourseRoundOff);
+  EXPECT_NEAR(plan.duration_s(), 4 * (leg_s + turn_s) + 8 * c.dwell_s, kCourseRoundOff);
   std::cout << "4 m square: " << plan.duration_s() << " s\n";
 }
 
 TEST(Plan, ShortWaysAreTriangles) {
   Course c;
   c.side_m = 0.1;  // 0.2 m/s needs 0.16 m to speed up and slow down
-  EXPECT_NEAR(Plan(c, Direction::cw).segments()[0].duration_s, 2 * std::sqrt(0.1 / 0.25), kRoundOff);
+  EXPECT_NEAR(Plan(c, Direction::cw).segments()[0].duration_s, 2 * std::sqrt(0.1 / 0.25), kCourseRoundOff);
 }
 
 TEST(Plan, ArcTurnsAreQuarterCircles) {
   const Plan plan(arc_course(), Direction::ccw);
-  EXPECT_NEAR(plan.segments()[0].length_m, 3, kRoundOff);
-  EXPECT_NEAR(plan.segments()[1].length_m, 0.5 * M_PI / 2, kRoundOff);
+  EXPECT_NEAR(plan.segments()[0].length_m, 3, kCourseRoundOff);
+  EXPECT_NEAR(plan.segments()[1].length_m, 0.5 * M_PI / 2, kCourseRoundOff);
   const Segment& turn = plan.segments()[1];
   for (double t = 0; t <= turn.duration_s; t += 0.1) {
     const Pose2 p = plan.at(turn.start_s + t).X_SB;
-    EXPECT_NEAR(std::hypot(p.x_m - 3, p.y_m - 0.5), 0.5, kRoundOff) << "about (3, 0.5)";
+    EXPECT_NEAR(std::hypot(p.x_m - 3, p.y_m - 0.5), 0.5, kCourseRoundOff) << "about (3, 0.5)";
   }
-  EXPECT_NEAR(plan.at(turn.start_s + turn.duration_s).X_SB.x_m, 3.5, kRoundOff);
-  EXPECT_NEAR(plan.at(turn.start_s + turn.duration_s).X_SB.y_m, 0.5, kRoundOff);
+  EXPECT_NEAR(plan.at(turn.start_s + turn.duration_s).X_SB.x_m, 3.5, kCourseRoundOff);
+  EXPECT_NEAR(plan.at(turn.start_s + turn.duration_s).X_SB.y_m, 0.5, kCourseRoundOff);
 }
 
 TEST(Plan, CornersAndEndOfTheSquare) {
@@ -61,13 +61,13 @@ TEST(Plan, CornersAndEndOfTheSquare) {
     for (int leg = 0; leg < 4; ++leg) {
       const Segment& turn = plan.segments()[2 * leg + 1];
       const Pose2 p = plan.at(turn.start_s + turn.duration_s / 2).X_SB;
-      EXPECT_NEAR(p.x_m, corner_x[leg], kRoundOff);
-      EXPECT_NEAR(p.y_m, sense * corner_y[leg], kRoundOff);
-      EXPECT_NEAR(p.theta_rad, sense * M_PI / 2 * (leg + 0.5), kRoundOff);
+      EXPECT_NEAR(p.x_m, corner_x[leg], kCourseRoundOff);
+      EXPECT_NEAR(p.y_m, sense * corner_y[leg], kCourseRoundOff);
+      EXPECT_NEAR(p.theta_rad, sense * M_PI / 2 * (leg + 0.5), kCourseRoundOff);
     }
     const Pose2 end = plan.at(plan.duration_s() + 10).X_SB;
-    EXPECT_NEAR(std::hypot(end.x_m, end.y_m), 0, kRoundOff);
-    EXPECT_NEAR(end.theta_rad, sense * 2 * M_PI, kRoundOff);
+    EXPECT_NEAR(std::hypot(end.x_m, end.y_m), 0, kCourseRoundOff);
+    EXPECT_NEAR(end.theta_rad, sense * 2 * M_PI, kCourseRoundOff);
   }
 }
 
@@ -77,8 +77,8 @@ TEST(Plan, ClosesForArcsAndSeveralLaps) {
   const Plan plan(c, Direction::cw);
   EXPECT_EQ(plan.segments().size(), 24u);
   const Pose2 end = plan.at(plan.duration_s()).X_SB;
-  EXPECT_NEAR(std::hypot(end.x_m, end.y_m), 0, kRoundOff);
-  EXPECT_NEAR(end.theta_rad, -6 * M_PI, kRoundOff);
+  EXPECT_NEAR(std::hypot(end.x_m, end.y_m), 0, kCourseRoundOff);
+  EXPECT_NEAR(end.theta_rad, -6 * M_PI, kCourseRoundOff);
 }
 
 // No jump in place, and none in speed: over 5 ms neither changes by more than speed and acceleration allow.
@@ -151,9 +151,9 @@ double tracking_error(const Course& c, const PlanePose& start, double from_s, Pl
 // that straddle a start from rest are exact as well, since only one of forward motion and turn is non-zero.
 TEST(Driver, StaysOnTheReference) {
   PlanePose robot;
-  EXPECT_LT(tracking_error(Course{}, {}, 0, robot), kRoundOff);
-  EXPECT_NEAR(std::abs(robot.p), 0, kRoundOff);
-  EXPECT_NEAR(robot.heading, 2 * M_PI, kRoundOff);
+  EXPECT_LT(tracking_error(Course{}, {}, 0, robot), kCourseRoundOff);
+  EXPECT_NEAR(std::abs(robot.p), 0, kCourseRoundOff);
+  EXPECT_NEAR(robot.heading, 2 * M_PI, kCourseRoundOff);
 }
 
 // Errors along the path and of the heading fade out within a second. Errors across it fade only while driving, the
@@ -176,8 +176,8 @@ TEST(Driver, StandsStillAtTheEnd) {
   const Plan plan(Course{}, Direction::cw);
   const Pose2 end = plan.at(plan.duration_s()).X_SB;
   const WheelSpeeds w = drive(plan, plan.duration_s() + 1, 0.02, end, {0.075, 0.075, 0.34}, 7);
-  EXPECT_NEAR(w.left_radps, 0, kRoundOff);
-  EXPECT_NEAR(w.right_radps, 0, kRoundOff);
+  EXPECT_NEAR(w.left_radps, 0, kCourseRoundOff);
+  EXPECT_NEAR(w.right_radps, 0, kCourseRoundOff);
 }
 
 Course circle_course(const char* shape, double radius_m) {
@@ -202,11 +202,11 @@ TEST(Shapes, ACircleLiesOnTheSideOfItsDirection) {
     const Plan plan(circle_course("circle", 0.75), direction);
     for (double t = 0; t < plan.duration_s(); t += 0.5) {
       const Pose2 p = plan.at(t).X_SB;
-      EXPECT_NEAR(std::hypot(p.x_m, p.y_m - sense * 0.75), 0.75, kRoundOff);
+      EXPECT_NEAR(std::hypot(p.x_m, p.y_m - sense * 0.75), 0.75, kCourseRoundOff);
     }
     const Pose2 end = plan.at(plan.duration_s()).X_SB;
-    EXPECT_NEAR(std::hypot(end.x_m, end.y_m), 0, kRoundOff);
-    EXPECT_NEAR(end.theta_rad, sense * 2 * M_PI, kRoundOff);
+    EXPECT_NEAR(std::hypot(end.x_m, end.y_m), 0, kCourseRoundOff);
+    EXPECT_NEAR(end.theta_rad, sense * 2 * M_PI, kCourseRoundOff);
   }
 }
 
@@ -216,11 +216,11 @@ TEST(Shapes, AnEightComesBackWithTheHeadingOfItsStart) {
   const Segment& second = plan.segments()[1];
   const Pose2 left = plan.at(plan.segments()[0].duration_s / 2).X_SB;
   const Pose2 right = plan.at(second.start_s + second.duration_s / 2).X_SB;
-  EXPECT_NEAR(left.y_m, 1.5, kRoundOff);
-  EXPECT_NEAR(right.y_m, -1.5, kRoundOff);
+  EXPECT_NEAR(left.y_m, 1.5, kCourseRoundOff);
+  EXPECT_NEAR(right.y_m, -1.5, kCourseRoundOff);
   const Pose2 end = plan.at(plan.duration_s()).X_SB;
-  EXPECT_NEAR(std::hypot(end.x_m, end.y_m), 0, kRoundOff);
-  EXPECT_NEAR(end.theta_rad, 0, kRoundOff);
+  EXPECT_NEAR(std::hypot(end.x_m, end.y_m), 0, kCourseRoundOff);
+  EXPECT_NEAR(end.theta_rad, 0, kCourseRoundOff);
 }
 
 TEST(Shapes, APathPassesItsWaypointsAndIsMirroredForCw) {
@@ -233,8 +233,8 @@ TEST(Shapes, APathPassesItsWaypointsAndIsMirroredForCw) {
       const Segment& s = plan.segments()[plan.leg_segment(leg).value()];
       const Pose2 p = plan.at(s.start_s + s.duration_s).X_SB;
       const Waypoint& to = c.waypoints[std::size_t(leg - 1) % 4];
-      EXPECT_NEAR(p.x_m, to.x_m, kRoundOff) << leg;
-      EXPECT_NEAR(p.y_m, sense * to.y_m, kRoundOff) << leg;
+      EXPECT_NEAR(p.x_m, to.x_m, kCourseRoundOff) << leg;
+      EXPECT_NEAR(p.y_m, sense * to.y_m, kCourseRoundOff) << leg;
     }
     EXPECT_FALSE(plan.leg_segment(9));
   }
@@ -244,12 +244,12 @@ TEST(Shapes, APathPassesItsWaypointsAndIsMirroredForCw) {
 TEST(Shapes, ArcsTouchBothLegsOfAPath) {
   const Plan plan(path_course({{2, 0}, {2, 2}}, "arc"), Direction::ccw);
   ASSERT_EQ(plan.segments().size(), 3u);
-  EXPECT_NEAR(plan.segments()[0].length_m, 1.7, kRoundOff);
-  EXPECT_NEAR(plan.segments()[1].length_m, 0.3 * M_PI / 2, kRoundOff);
-  EXPECT_NEAR(plan.segments()[2].length_m, 1.7, kRoundOff);
+  EXPECT_NEAR(plan.segments()[0].length_m, 1.7, kCourseRoundOff);
+  EXPECT_NEAR(plan.segments()[1].length_m, 0.3 * M_PI / 2, kCourseRoundOff);
+  EXPECT_NEAR(plan.segments()[2].length_m, 1.7, kCourseRoundOff);
   const Pose2 end = plan.at(plan.duration_s()).X_SB;
-  EXPECT_NEAR(end.x_m, 2, kRoundOff);
-  EXPECT_NEAR(end.y_m, 2, kRoundOff);
+  EXPECT_NEAR(end.x_m, 2, kCourseRoundOff);
+  EXPECT_NEAR(end.y_m, 2, kCourseRoundOff);
 }
 
 TEST(Shapes, WhatCannotBeDrivenIsNamed) {

@@ -6,7 +6,7 @@ namespace umbsim::worlds {
 namespace {
 
 // A minute along a circle, every 10 ms.
-std::vector<TruthSample> circle() {
+std::vector<TruthSample> seen_circle() {
   std::vector<TruthSample> dense;
   for (int k = 0; k <= 6000; ++k) {
     const double t = 0.01 * k;
@@ -31,7 +31,7 @@ TEST(Tracker, CameraWithDelayAndDriftLeadsBackToTheTruth) {
   TrackerChoice t = exact("camera");
   t.delay_s = 0.1;
   t.clock_drift = 3e-4;
-  const std::vector<TruthSample> seen = observe(circle(), t, RandomStream(1, "t"));
+  const std::vector<TruthSample> seen = observe(seen_circle(), t, RandomStream(1, "t"));
   ASSERT_GT(seen.size(), 400u);
   for (const TruthSample& s : seen) {
     const Pose2 X_WB = inverse(t.X_TW) * s.X_WB * inverse(t.X_BM);
@@ -51,7 +51,7 @@ TEST(Tracker, DropoutsAreAStatedShareInStretches) {
   std::size_t seen = 0, gaps = 0;
   double lost_s = 0;
   for (std::uint64_t k = 0; k < 60; ++k) {
-    const std::vector<TruthSample> s = observe(circle(), t, RandomStream(k, "t"));
+    const std::vector<TruthSample> s = observe(seen_circle(), t, RandomStream(k, "t"));
     seen += s.size();
     for (std::size_t i = 1; i < s.size(); ++i) {
       const double gap_s = s[i].time_s - s[i - 1].time_s;
@@ -69,14 +69,14 @@ TEST(Tracker, TotalStationSaysNothingOfTheHeading) {
   RandomStream random(4, "test tracker");
   const TrackerChoice t = draw_tracker("total_station", random);
   EXPECT_GE(t.heading_sd_rad, 3);  // the header says that any heading may be
-  const std::vector<TruthSample> seen = observe(circle(), t, RandomStream(1, "t"));
+  const std::vector<TruthSample> seen = observe(seen_circle(), t, RandomStream(1, "t"));
   EXPECT_EQ(seen.size(), 301u);  // 5 Hz
   for (const TruthSample& s : seen) EXPECT_EQ(s.X_WB.theta_rad, 0);
 }
 
 TEST(Tracker, TapeMeasuresTheEndsAlone) {
   const TrackerChoice t = exact("tape");
-  const std::vector<TruthSample> seen = observe(circle(), t, RandomStream(1, "t"));
+  const std::vector<TruthSample> seen = observe(seen_circle(), t, RandomStream(1, "t"));
   ASSERT_EQ(seen.size(), 2u);
   EXPECT_EQ(seen[0].time_s, 0);
   EXPECT_EQ(seen[1].time_s, 60);
@@ -86,7 +86,7 @@ TEST(Tracker, FrameIsTurnedAndMarkerIsOffTheAxle) {
   TrackerChoice t = exact("mocap");
   t.X_TW = {0.1, -0.2, 0.3};
   t.X_BM = {0.05, 0, 0};
-  const std::vector<TruthSample> seen = observe(circle(), t, RandomStream(1, "t"));
+  const std::vector<TruthSample> seen = observe(seen_circle(), t, RandomStream(1, "t"));
   // At the start the robot is at the origin along x; the marker 5 cm ahead, all turned by 0.3 rad.
   EXPECT_NEAR(seen[0].X_WB.x_m, 0.1 + 0.05 * std::cos(0.3), 1e-12);
   EXPECT_NEAR(seen[0].X_WB.y_m, -0.2 + 0.05 * std::sin(0.3), 1e-12);

@@ -9,7 +9,7 @@
 namespace umbsim::fidelity {
 namespace {
 
-const char* const kText = R"(## 5. Cables
+const char* const kCablesText = R"(## 5. Cables
 
 A rigid wheel of radius R that rolls over a round cable of diameter h = 2r without slip: its centre follows an arc of
 radius R + r, from the angle ψ before the cable's top to ψ behind it, with cos ψ = (R - r) / (R + r). Its path is longer than
@@ -52,10 +52,12 @@ std::string grid_table(Grid grid) {
   for (CableCase c : cable_grid(grid)) {
     const double radius_m = c.robot.wheels[0].radius_m, wheelbase_m = c.robot.wheelbase_m();
     const Climb climb = closed_form(radius_m, c.height_m);
-    std::vector<std::string> row{c.name, fmt::format("{:.0f}, {:.0f} mm", 1000 * radius_m, 1000 * wheelbase_m),
+    std::vector<std::string> row{c.name,
+                                 fmt::format("{:.0f}, {:.0f} mm", 1000 * radius_m, 1000 * wheelbase_m),
                                  fmt::format("{:.0f} mm", 1000 * c.height_m),
                                  fmt::format("{:.3f}°", degrees(climb.extra_path_m / wheelbase_m)),
-                                 fmt::format("{:.2f}", climb.least_friction), fmt::format("{}", c.friction)};
+                                 fmt::format("{:.2f}", climb.least_friction),
+                                 fmt::format("{}", c.friction)};
     for (const double speed_mps : {0.05, 0.1, 0.2}) {
       c.speed_mps = speed_mps;
       row.push_back(cell(c));
@@ -120,7 +122,7 @@ std::string limits_table() {
 }  // namespace
 
 std::string cable_chapter(Grid grid) {
-  return kText + grid_table(grid) + shipped_steps_line(grid) + mirror_line(grid) +
+  return kCablesText + grid_table(grid) + shipped_steps_line(grid) + mirror_line(grid) +
          "Both limits side by side, cable 10 mm, steps of 0.1 ms. With friction 2 a wheel does not slip:\n\n" +
          limits_table();
 }

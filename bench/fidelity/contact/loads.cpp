@@ -96,7 +96,7 @@ std::vector<LoadCase> cases_of(const RobotModel& robot, LoadGrid which, Grid gri
   return accelerations(robot);
 }
 
-constexpr const char* kText = R"(## 4. Wheel loads against statics
+constexpr const char* kLoadsText = R"(## 4. Wheel loads against statics
 
 Three supports: the loads follow from their sum and two moments. Their centre of pressure is the point below the centre
 of mass, moved downhill by h tan α on a slope, and back by (m a h + 2 I_w a / R) / (m g) when the robot accelerates (the
@@ -132,7 +132,7 @@ std::string loads_chapter(Grid grid) {
                  fmt::format("{:.1e}", soft.worst)});
     }
   }
-  return kText + table.text();
+  return kLoadsText + table.text();
 }
 
 }  // namespace umbsim::fidelity

@@ -15,8 +15,8 @@ constexpr double kPayloads[] = {0, 0.3};
 constexpr double kSide_m = 1.5;
 constexpr double kArc_m = 0.4;
 
-Drive square(const Rig& rig, double speed_mps, const char* turn, Direction direction) {
-  Drive d;
+CheckDrive square(const Rig& rig, double speed_mps, const char* turn, Direction direction) {
+  CheckDrive d;
   d.course.side_m = kSide_m;
   d.course.turn = turn;
   d.course.turn_radius_m = kArc_m;
@@ -28,12 +28,12 @@ Drive square(const Rig& rig, double speed_mps, const char* turn, Direction direc
   return d;
 }
 
-std::vector<Drive> drives(const Rig& rig, double speed_mps) {
-  std::vector<Drive> all;
+std::vector<CheckDrive> drives(const Rig& rig, double speed_mps) {
+  std::vector<CheckDrive> all;
   for (const Direction direction : {Direction::cw, Direction::ccw}) {
     for (const char* turn : {"in_place", "arc"}) all.push_back(square(rig, speed_mps, turn, direction));
     all.push_back(all.back());
-    all.back().kind = Drive::Kind::circle;
+    all.back().kind = CheckDrive::Kind::circle;
   }
   return all;
 }
@@ -42,7 +42,7 @@ void add_drives(const EngineKind& kind, const EngineOptions& options, const Cond
                 std::vector<PartResidual>& all) {
   const double own_kg = plain_rig(c.size).robot.total_mass_kg();
   const Rig rig = plain_rig(c.size, c.payload_share * own_kg);
-  for (const Drive& d : drives(rig, c.speed_mps)) {
+  for (const CheckDrive& d : drives(rig, c.speed_mps)) {
     const std::unique_ptr<Engine> engine = kind.build({rig, {}, 1}, options);
     const DrivenTrack track = drive(*engine, d);
     const std::vector<Pose2> residual = residuals(track, d.believed);

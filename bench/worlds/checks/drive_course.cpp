@@ -71,7 +71,7 @@ std::vector<int> name_parts(const Plan& plan, DrivenTrack& track) {
   return first;
 }
 
-void drive_square(Engine& engine, const Drive& d, DrivenTrack& track) {
+void drive_square(Engine& engine, const CheckDrive& d, DrivenTrack& track) {
   const Plan plan(d.course, d.direction);
   const std::vector<int> first = name_parts(plan, track);
   Recorder recorder(engine, track);
@@ -92,7 +92,7 @@ void drive_square(Engine& engine, const Drive& d, DrivenTrack& track) {
   }
 }
 
-void drive_circle(Engine& engine, const Drive& d, DrivenTrack& track) {
+void drive_circle(Engine& engine, const CheckDrive& d, DrivenTrack& track) {
   const double sign = d.direction == Direction::ccw ? 1 : -1, curvature = sign / d.circle_radius_m;
   const double v = d.course.linear_speed_mps, ramp_s = v / d.course.linear_acceleration_mps2;
   const double round_s = 2 * M_PI * d.circle_radius_m / v;
@@ -114,9 +114,9 @@ DriveGeometry believed_of(const Rig& rig) {
   return {rig.robot.wheels[0].radius_m, rig.robot.wheels[1].radius_m, rig.robot.wheelbase_m()};
 }
 
-DrivenTrack drive(Engine& engine, const Drive& d) {
+DrivenTrack drive(Engine& engine, const CheckDrive& d) {
   DrivenTrack track;
-  if (d.kind == Drive::Kind::square)
+  if (d.kind == CheckDrive::Kind::square)
     drive_square(engine, d, track);
   else
     drive_circle(engine, d, track);

@@ -9,7 +9,7 @@ namespace umbsim::worlds {
 
 /// What a check asks of a robot: a course, driven on the odometry of its own shafts, or a stretch at constant
 /// curvature.
-struct Drive {
+struct CheckDrive {
   enum class Kind { square, circle };
   Kind kind = Kind::square;
   Course course;
@@ -42,7 +42,7 @@ struct DrivenTrack {
 DriveGeometry believed_of(const Rig& rig);
 
 /// Drives with commands at 50 Hz.
-DrivenTrack drive(Engine& engine, const Drive& drive);
+DrivenTrack drive(Engine& engine, const CheckDrive& drive);
 
 /// By part: true relative pose, less that of the odometry from the same shafts, in the frame of the part's start.
 std::vector<Pose2> residuals(const DrivenTrack& track, const DriveGeometry& believed);

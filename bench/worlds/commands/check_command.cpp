@@ -10,7 +10,7 @@
 namespace umbsim::worlds {
 namespace {
 
-struct Arguments {
+struct CheckArguments {
   double severity = 3;
   std::uint64_t seed = 1;
   std::vector<std::string> effects;
@@ -24,7 +24,7 @@ std::string cell(const ComparedEffect& e, const std::string& engine) {
   return "not expressed";
 }
 
-void run(const Arguments& a) {
+void run_check(const CheckArguments& a) {
   std::vector<std::string> names = a.effects;
   if (names.empty()) {
     for (const EffectInfo& info : catalogue()) names.push_back(info.name);
@@ -56,13 +56,13 @@ void run(const Arguments& a) {
 }  // namespace
 
 void add_check_command(CLI::App& app) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand(
       "check", "Every effect in every engine, as a share of what it does in this simulator (and how alike)");
   command->add_option("effects", a->effects, "Effects of the catalogue; default: all");
   command->add_option("--severity", a->severity, "Noise floors in this simulator")->capture_default_str();
   command->add_option("--seed", a->seed, "Of signs and places")->capture_default_str();
-  command->callback([a] { run(*a); });
+  command->callback([a] { run_check(*a); });
 }
 
 }  // namespace umbsim::worlds

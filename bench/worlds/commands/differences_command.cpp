@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kParts[] = {"start", "cruise", "stop", "turn", "arc", "circle"};
 
-struct Arguments {
+struct DifferencesArguments {
   int draws = 6;
   std::uint64_t seed = 1;
   std::string picture;
@@ -62,7 +62,7 @@ void print_conditions(const std::vector<Residuals>& of) {
   }
 }
 
-void run(const Arguments& a) {
+void run_differences(const DifferencesArguments& a) {
   const std::vector<EngineKind>& kinds = engines();
   std::vector<Residuals> of(kinds.size());
   std::vector<int> refused(kinds.size());
@@ -103,7 +103,7 @@ void run(const Arguments& a) {
 }  // namespace
 
 void add_differences_command(CLI::App& app) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<DifferencesArguments>();
   CLI::App* command =
       app.add_subcommand("differences", "How far engines lead robots astray from their counts with nothing wrong");
   command->add_option("--draws", a->draws, "Draws of every engine's options")
@@ -111,7 +111,7 @@ void add_differences_command(CLI::App& app) {
       ->check(CLI::Range(1, 1000));
   command->add_option("--seed", a->seed, "Of the draws")->capture_default_str();
   command->add_option("--picture", a->picture, "SVG file of the differences of heading");
-  command->callback([a] { run(*a); });
+  command->callback([a] { run_differences(*a); });
 }
 
 }  // namespace umbsim::worlds

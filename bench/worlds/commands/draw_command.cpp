@@ -10,7 +10,7 @@
 namespace umbsim::worlds {
 namespace {
 
-struct Arguments {
+struct DrawArguments {
   std::string file;
   std::string folder;
   std::string shard = "1/1";
@@ -22,21 +22,21 @@ bool is_list(const std::string& file) {
   return map.at("format").choice({"umbsim-worlds/1", "umbsim-worlds-list/1"}) == "umbsim-worlds-list/1";
 }
 
-TrialFolder folder_of(const Arguments& a, const std::string& name) {
+TrialFolder folder_of(const DrawArguments& a, const std::string& name) {
   return TrialFolder(a.folder.empty() ? "results/worlds-" + name : a.folder);
 }
 
-DrawResult draw_plan(const Arguments& a) {
+DrawResult draw_plan(const DrawArguments& a) {
   const WorldsPlan plan = read_worlds(a.file);
   return draw_worlds(plan, folder_of(a, plan.name), parse_shard(a.shard), a.jobs);
 }
 
-DrawResult draw_list(const Arguments& a) {
+DrawResult draw_list(const DrawArguments& a) {
   const WorldsList list = read_worlds_list(a.file);
   return draw_all(source_of(list), folder_of(a, list.name), parse_shard(a.shard), a.jobs);
 }
 
-void draw(const Arguments& a) {
+void draw(const DrawArguments& a) {
   const DrawResult r = is_list(a.file) ? draw_list(a) : draw_plan(a);
   fmt::print("{}: {} of {} cases stand\n", r.root.string(), r.finished, r.cases);
   if (r.drawn_now > 0) {
@@ -52,7 +52,7 @@ void draw(const Arguments& a) {
 }  // namespace
 
 void add_draw_command(CLI::App& app) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<DrawArguments>();
   CLI::App* command = app.add_subcommand(
       "draw", "Draw worlds or the cases of a list, drive them, seal the answers; does what is not done yet");
   command->add_option("worlds", a->file, "Plan of worlds or list of cases (YAML, docs/worlds.md)")->required();

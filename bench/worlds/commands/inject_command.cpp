@@ -8,7 +8,7 @@
 namespace umbsim::worlds {
 namespace {
 
-struct Arguments {
+struct InjectArguments {
   std::vector<std::string> recordings;
   std::string folder = "results/worlds-injected";
   int each = 9;
@@ -18,7 +18,7 @@ struct Arguments {
 }  // namespace
 
 void add_inject_command(CLI::App& app) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<InjectArguments>();
   CLI::App* command =
       app.add_subcommand("inject", "Spoil real recordings as a fault of the robot would; seal the answers");
   command->add_option("recordings", a->recordings, "Folders of real recordings")->required();

@@ -11,7 +11,7 @@
 namespace umbsim::worlds {
 namespace {
 
-struct Arguments {
+struct LearnArguments {
   std::vector<std::string> folders;
   std::vector<std::string> without;
   std::string out;
@@ -25,7 +25,7 @@ std::string row(const std::string& effect, const LearnedErrors& learned) {
                      e.parts[1], e.parts[2], e.parts[3], e.motion, e.counts, learned.cases, learned.gain);
 }
 
-void learn(const Arguments& a) {
+void learn(const LearnArguments& a) {
   std::vector<CaseShares> cases;
   std::map<std::string, int> engines;
   std::string table =
@@ -52,7 +52,7 @@ void learn(const Arguments& a) {
 }  // namespace
 
 void add_learn_command(CLI::App& app) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<LearnArguments>();
   CLI::App* command = app.add_subcommand(
       "learn", "By how much each effect's signature is off in other engines, from worlds whose answers are known");
   command->add_option("folders", a->folders, "Folders of worlds, drawn and sealed")->required();

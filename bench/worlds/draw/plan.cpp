@@ -14,11 +14,6 @@
 namespace umbsim::worlds {
 namespace {
 
-template <std::size_t N>
-std::vector<std::string> all(const char* const (&names)[N]) {
-  return {std::begin(names), std::end(names)};
-}
-
 std::vector<std::string> engine_names() {
   std::vector<std::string> names;
   for (const EngineKind& kind : engines()) names.push_back(kind.name);
@@ -75,9 +70,9 @@ WorldsPlan read_worlds(const std::string& file) {
     plan.severity.max = ends[1].number(Bounds::at_least(plan.severity.min));
   }
   plan.decoy_exclusions = map.number("decoy_exclusions", plan.decoy_exclusions, Bounds::between(0, 1));
-  plan.choices.drivers = some_of(map, "drivers", all(kDriverKinds));
-  plan.choices.trackers = some_of(map, "trackers", all(kTrackerKinds));
-  plan.choices.runs = some_of(map, "runs", all(kRunSets));
+  plan.choices.drivers = some_of(map, "drivers", names_in(kDriverKinds));
+  plan.choices.trackers = some_of(map, "trackers", names_in(kTrackerKinds));
+  plan.choices.runs = some_of(map, "runs", names_in(kRunSets));
   plan.choices.robots_folder = UMBSIM_ROBOTS_DIR;
   map.finish();
   return plan;

@@ -8,11 +8,6 @@ namespace {
 const std::vector<std::string> kEngineNames = {"ours", "planar", "bullet", "mujoco"};
 constexpr double kRollingShare = 0.15;  // of the side: radius of rolling turns that are not given
 
-template <std::size_t N>
-std::vector<std::string> all(const char* const (&names)[N]) {
-  return {std::begin(names), std::end(names)};
-}
-
 const EngineKind& read_engine(const YamlValue& value) {
   const std::string name = value.choice(kEngineNames);
   try {
@@ -56,7 +51,7 @@ Physics read_physics(const YamlValue& value) {
 DriverChoice read_driver(const YamlValue& value) {
   YamlMap map(value);
   DriverChoice d;
-  d.kind = map.choice("kind", d.kind, all(kDriverKinds));
+  d.kind = map.choice("kind", d.kind, names_in(kDriverKinds));
   d.rate_hz = map.number("rate_hz", d.rate_hz, Bounds::between(5, 200));
   d.open_loop = map.boolean("open_loop", d.open_loop);
   d.jumps = map.choice("set_points", "ramp", {"ramp", "jump"}) == "jump";
@@ -71,7 +66,7 @@ DriverChoice read_driver(const YamlValue& value) {
 
 TrackerChoice read_tracker(const YamlValue& value) {
   YamlMap map(value);
-  TrackerChoice t = exact_tracker(map.choice("kind", "mocap", all(kTrackerKinds)));
+  TrackerChoice t = exact_tracker(map.choice("kind", "mocap", names_in(kTrackerKinds)));
   t.rate_hz = map.number("rate_hz", t.rate_hz, Bounds::between(1, 1000));
   t.position_sd_m = map.number("position_sd_m", t.position_sd_m, {0, 1, true});
   if (t.sees_heading) t.heading_sd_rad = map.number("heading_sd_rad", t.heading_sd_rad, {0, 1, true});
@@ -144,7 +139,7 @@ std::map<std::string, World> read_listed_worlds(YamlMap& map) {
   if (const auto value = map.find("driver")) common.driver = read_driver(*value);
   if (const auto value = map.find("tracker")) common.tracker = read_tracker(*value);
   if (const auto value = map.find("noise")) common.noise = read_noise(*value);
-  const std::string runs = map.choice("runs", "recommended", all(kSquareSets));
+  const std::string runs = map.choice("runs", "recommended", names_in(kSquareSets));
   std::map<std::string, World> worlds;
   for (const auto& [name, value] : YamlMap(map.at("platforms")).entries())
     worlds[name] = read_platform(name, value, runs, common);

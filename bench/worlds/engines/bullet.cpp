@@ -24,7 +24,7 @@ class Bullet : public Engine {
   bullet::BulletRobot robot_;
 };
 
-std::unique_ptr<Engine> build(const EngineSetup& setup, const EngineOptions& options) {
+std::unique_ptr<Engine> build_bullet(const EngineSetup& setup, const EngineOptions& options) {
   bullet::BulletOptions o;
   o.step_s = options.numbers.at("step_s");
   o.solver = options.choices.at("solver");
@@ -42,7 +42,7 @@ std::unique_ptr<Engine> build(const EngineSetup& setup, const EngineOptions& opt
   return std::make_unique<Bullet>(setup, o);
 }
 
-std::map<std::string, std::string> expressed() {
+std::map<std::string, std::string> expressed_in_bullet() {
   const std::string shape = "the wheel's shape and link", motor = "target and largest impulse of the joint's motor",
                     demand = "the driver asks for it; contacts slide at the friction pyramid", counts = "of the joint",
                     friction = "friction of the wheel's collider";
@@ -106,8 +106,8 @@ EngineKind bullet_engine() {
                   {"rolling_m", Bounds::between(0, 0.01)},
                   {"erp", Bounds::between(0, 1)},
                   {"velocity_gain", {0, 1, true}}};
-  kind.expresses = expressed();
-  kind.build = build;
+  kind.expresses = expressed_in_bullet();
+  kind.build = build_bullet;
   return kind;
 }
 

@@ -24,7 +24,7 @@ class Mujoco : public Engine {
   mujoco::MujocoRobot robot_;
 };
 
-std::unique_ptr<Engine> build(const EngineSetup& setup, const EngineOptions& options) {
+std::unique_ptr<Engine> build_mujoco(const EngineSetup& setup, const EngineOptions& options) {
   const auto number = [&](const char* name) { return options.numbers.at(name); };
   mujoco::MujocoOptions o;
   o.step_s = number("step_s");
@@ -45,7 +45,7 @@ std::unique_ptr<Engine> build(const EngineSetup& setup, const EngineOptions& opt
   return std::make_unique<Mujoco>(setup, o);
 }
 
-std::map<std::string, std::string> expressed() {
+std::map<std::string, std::string> expressed_in_mujoco() {
   const std::string geom = "the wheel's geom and body", servo = "set-point and force range of the velocity servo",
                     demand = "the driver asks for it; contacts slide at the friction cone",
                     counts = "of the shaft's joint", friction = "friction of the wheel's geom";
@@ -143,8 +143,8 @@ EngineKind mujoco_engine() {
                   {"servo_time_s", Bounds::between(0.001, 1)},
                   {"armature_over_wheel", Bounds::between(0, 1000)},
                   {"joint_damping", Bounds::between(0, 1)}};
-  kind.expresses = expressed();
-  kind.build = build;
+  kind.expresses = expressed_in_mujoco();
+  kind.build = build_mujoco;
   return kind;
 }
 

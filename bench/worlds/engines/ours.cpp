@@ -31,7 +31,7 @@ class Ours : public Engine {
   World world_;
 };
 
-std::unique_ptr<Engine> build(const EngineSetup& setup, const EngineOptions& options) {
+std::unique_ptr<Engine> build_ours(const EngineSetup& setup, const EngineOptions& options) {
   PhysicsOptions physics;
   physics.step_s = options.numbers.at("step_s");
   physics.fine_step_s = options.numbers.at("fine_step_s");
@@ -54,7 +54,7 @@ EngineKind our_engine() {
       {"damping_ratio", "1", Draw::uniform, 1, 3, {}, "of the load on its spring"},
   };
   for (const EffectInfo& info : catalogue()) kind.expresses[info.name] = "as in the catalogue";
-  kind.build = build;
+  kind.build = build_ours;
   return kind;
 }
 

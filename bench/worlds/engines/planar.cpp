@@ -24,7 +24,7 @@ class Planar : public Engine {
   planar::PlanarRobot robot_;
 };
 
-std::unique_ptr<Engine> build(const EngineSetup& setup, const EngineOptions& options) {
+std::unique_ptr<Engine> build_planar(const EngineSetup& setup, const EngineOptions& options) {
   planar::PlanarOptions o;
   o.curve = options.choices.at("tyre") == "brush" ? planar::TyreLaw::Curve::brush : planar::TyreLaw::Curve::lugre;
   o.creep = options.numbers.at("creep");
@@ -38,7 +38,7 @@ std::unique_ptr<Engine> build(const EngineSetup& setup, const EngineOptions& opt
   return std::make_unique<Planar>(setup, o);
 }
 
-std::map<std::string, std::string> expressed() {
+std::map<std::string, std::string> expressed_in_planar() {
   const std::string wheel = "the wheel's own radius or place", servo = "set-point and limit of the motor's control",
                     demand = "the driver asks for it; treads slide at the friction limit",
                     counts = "of the shaft's angle";
@@ -99,8 +99,8 @@ EngineKind planar_engine() {
       {"rotor_over_wheel", "1", Draw::log_uniform, 1, 6, {}, "inertia of motor and gear over the wheel's"},
       {"load_time_s", "s", Draw::log_uniform, 0.003, 0.015, {}, "in which wheel loads follow accelerations"},
   };
-  kind.expresses = expressed();
-  kind.build = build;
+  kind.expresses = expressed_in_planar();
+  kind.build = build_planar;
   return kind;
 }
 

@@ -21,14 +21,13 @@ constexpr double kSmallest_m = 0.03, kLargest_m = 0.15;
 constexpr double kFewestTicks = 200, kMostTicks = 20000;
 constexpr double kQuadrature = 4;  // counts a line
 // The LabMate's own, from which motors are scaled.
-constexpr double kLabmateMass_kg = 40, kLabmateRadius_m = 0.075, kLabmateEffort_nm = 20;
+constexpr double kLabmateMass_kg = 40, kLabmateEffort_nm = 20;
 constexpr double kWheelShare = 0.025;  // of the base's mass
 constexpr double kCasterRadius = 0.4;  // of the wheel's
 constexpr double kTrail = 0.5;         // of a swivelling caster, in radii of its wheel
 constexpr std::size_t kMaxUrdfBytes = 16 * 1024 * 1024;
 
 double log_uniform(RandomStream& random, double min, double max) { return min * std::pow(max / min, random.uniform()); }
-double rounded(double value, double grain) { return std::round(value / grain) * grain; }
 
 std::string cylinder_inertia(double mass, double radius, double width) {
   const double spin = mass * radius * radius / 2, across = mass * (3 * radius * radius + width * width) / 12;

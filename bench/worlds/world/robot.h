@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,12 @@
 #include "sim/model/robot_model.h"
 
 namespace umbsim::worlds {
+
+/// The LabMate's wheel, from which robots are scaled.
+constexpr double kLabmateRadius_m = 0.075;
+
+/// The multiple of `grain` next to `value`: figures of a drawn robot are round.
+inline double rounded(double value, double grain) { return std::round(value / grain) * grain; }
 
 /// How a drawn robot is held up beside its wheels.
 constexpr const char* kCasterKinds[] = {"ball_ahead", "ball_behind", "two_balls", "swivel_ahead", "swivel_behind"};

@@ -14,10 +14,7 @@ namespace {
 
 constexpr double kPayloadShare = 0.375;  // of the base's mass, as in gap plan
 constexpr double kTurnRadius = 0.15;     // of rolling turns, in sides of the square
-constexpr double kLabmateRadius_m = 0.075;
-constexpr int kRuns = 4;  // of sets that are not squares
-
-double rounded(double value, double grain) { return std::round(value / grain) * grain; }
+constexpr int kRuns = 4;                 // of sets that are not squares
 
 Course draw_limits(const WorldRobot& robot, RandomStream& random) {
   const RobotModel& m = robot.model;

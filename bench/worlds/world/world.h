@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,12 @@
 #include "bench/worlds/world/tracker.h"
 
 namespace umbsim::worlds {
+
+/// An array of names as a file's reader takes it.
+template <std::size_t N>
+std::vector<std::string> names_in(const char* const (&names)[N]) {
+  return {std::begin(names), std::end(names)};
+}
 
 /// What tyres, motors and casters are like in a world before anything is wrong with them.
 struct Physics {

@@ -39,7 +39,7 @@ class HandMade {
   std::string cases_;
 };
 
-const std::string kWheelbase =
+const std::string kWheelbaseAnswer =
     R"({"effects":{"wheelbase":{"relative":0.01}},"severities":{"wheelbase":{"severity":3}}})";
 const std::string kBump =
     R"({"effects":{"bump":{"height_m":0.006,"x_m":2,"y_m":0}},"severities":{"bump":{"severity":0.7}}})";
@@ -55,8 +55,8 @@ const Figure& figure(const TrialScore& score, const std::string& key) {
 
 TEST(Score, CountsWhatWasMadeUp) {
   HandMade trial;
-  trial.add("a1", kWheelbase, kRightWheelbase);
-  trial.add("a2", kWheelbase, diagnosis(R"("bump":{})", 0.6, R"("bump","wheelbase","push")"));
+  trial.add("a1", kWheelbaseAnswer, kRightWheelbase);
+  trial.add("a2", kWheelbaseAnswer, diagnosis(R"("bump":{})", 0.6, R"("bump","wheelbase","push")"));
   trial.add("a3", kBump, diagnosis(R"("unknown":{})", 0.5, R"("unknown")"));
   trial.add("n1", R"({"effects":{}})", diagnosis(R"("none":{})", 0.9, R"("none")"));
   trial.add("n2", R"({"effects":{}})", diagnosis(R"("wheelbase":{})", 0.7, R"("wheelbase")"));
@@ -91,7 +91,7 @@ TEST(Score, CountsWhatWasMadeUp) {
 
 TEST(Score, UndetectableCasesAreListedAndNotCounted) {
   HandMade trial;
-  trial.add("a1", kWheelbase, kRightWheelbase);
+  trial.add("a1", kWheelbaseAnswer, kRightWheelbase);
   trial.add("u1", R"({"effects":{"floor_slope":{"slope_rad":0.01}},"undetectable_expected":true,
                       "severities":{"floor_slope":{"drawn":2,"severity":0.01,"signal":"x"}}})",
             diagnosis(R"("none":{})", 0.9, R"("none")"));
@@ -123,7 +123,7 @@ TEST(Score, APairOfWhichOneCannotBeSeenIsNotAskedForBoth) {
 TEST(Score, SeverityCalibrationAndConfusion) {
   HandMade trial;
   for (int i = 0; i < 4; ++i) {
-    trial.add("a" + std::to_string(i), kWheelbase,
+    trial.add("a" + std::to_string(i), kWheelbaseAnswer,
               i < 3 ? kRightWheelbase : diagnosis(R"("bump":{})", 0.95, R"("bump")"));
   }
   trial.add("b", kBump, diagnosis(R"("none":{})", 0.31, R"("none")"));
@@ -167,8 +167,8 @@ TEST(Score, OfForeignRecordings) {
 
 TEST(Score, CasesThatWereNotDiagnosedCountAsFailed) {
   HandMade trial;
-  trial.add("a1", kWheelbase, kRightWheelbase);
-  trial.add("a2", kWheelbase, "");
+  trial.add("a1", kWheelbaseAnswer, kRightWheelbase);
+  trial.add("a2", kWheelbaseAnswer, "");
   fs::remove_all(trial.folder.path / "diagnoses/a2");
   const TrialScore score = trial.score();
   EXPECT_EQ(score.verdicts.at(1).named, "failed");
@@ -177,7 +177,7 @@ TEST(Score, CasesThatWereNotDiagnosedCountAsFailed) {
 
 TEST(Score, ChangedOrForeignAnswersAreRefused) {
   HandMade trial;
-  trial.add("a1", kWheelbase, kRightWheelbase);
+  trial.add("a1", kWheelbaseAnswer, kRightWheelbase);
   trial.score();
   const fs::path answers = trial.trial().answers();
   std::string text = text_of(answers);
@@ -186,7 +186,7 @@ TEST(Score, ChangedOrForeignAnswersAreRefused) {
   EXPECT_THROW(score_trial(trial.trial(), answers), InputError);
 
   HandMade swapped;  // sealed anew after the diagnosis
-  swapped.add("a1", kWheelbase, kRightWheelbase);
+  swapped.add("a1", kWheelbaseAnswer, kRightWheelbase);
   swapped.folder.write("diagnoses/a1/process.json",
                        R"({"exit_code":0,"wall_s":1,"failed":false,"answers_sha256":"0123"})");
   EXPECT_THROW(swapped.score(), InputError);
@@ -194,11 +194,11 @@ TEST(Score, ChangedOrForeignAnswersAreRefused) {
 
 TEST(Score, WhatIsMissingIsNamed) {
   HandMade nothing;
-  nothing.add("a1", kWheelbase, kRightWheelbase);
+  nothing.add("a1", kWheelbaseAnswer, kRightWheelbase);
   fs::remove_all(nothing.folder.path / "diagnoses");
   EXPECT_THROW(nothing.score(), InputError);
   HandMade lacking;
-  lacking.add("a1", kWheelbase, kRightWheelbase);
+  lacking.add("a1", kWheelbaseAnswer, kRightWheelbase);
   lacking.score();
   const fs::path other =
       lacking.folder.write("other.yaml", "format: umbsim-trial-answers/1\ncases: {b: {effects: {}}}\n");

@@ -10,10 +10,6 @@ namespace {
 constexpr double kBearingTwist_rad = 0.002;  // that a dry bearing gives before it turns
 constexpr double kBearingDampingRatio = 0.3;
 
-Eigen::Vector2d flat(const Eigen::Vector3d& v) { return v.head<2>(); }
-Eigen::Vector2d left_of(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 }  // namespace
 
 CasterPart::CasterPart(const Caster& caster, const TyreLaw& law)

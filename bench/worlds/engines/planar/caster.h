@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "bench/worlds/engines/planar/plane.h"
 #include "bench/worlds/engines/planar/tyre.h"
 #include "sim/model/robot_model.h"
 

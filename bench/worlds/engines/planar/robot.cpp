@@ -29,8 +29,6 @@ std::vector<Strip> strips_across(double width_m) {
   return strips;
 }
 
-Eigen::Vector2d flat(const Eigen::Vector3d& v) { return v.head<2>(); }
-
 }  // namespace
 
 PlanarRobot::PlanarRobot(const Rig& rig, const PlanarOptions& options, const Pose2& X_WB)

@@ -11,9 +11,6 @@ namespace {
 
 constexpr double kTips_s = 0.3;  // a robot that balances on no three supports for that long is on its side
 
-Eigen::Vector2d left_of(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 double friction_of(const Floor& floor, const Eigen::Vector2d& place_m) {
   double friction = floor.friction;
   for (const FrictionPatch& p : floor.patches) {
