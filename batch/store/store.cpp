@@ -201,7 +201,7 @@ void Store::forget_failed() {
 void Store::settle() {
   const std::lock_guard lock(*mutex_);
   try {
-    database_->run("PRAGMA journal_mode = DELETE");
+    database_->value("PRAGMA journal_mode = DELETE");  // not `run`, which would wait for the other one
   } catch (const RunError&) {
     // Another process still has it open, and will do it.
   }

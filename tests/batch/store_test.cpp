@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -143,6 +144,20 @@ TEST_F(StoreTest, MergedStoresAreAsOne) {
   other.definition = "definition 2";
   { Store stranger = open("stranger", other); }
   EXPECT_THROW(merged.take_over(file("stranger")), InputError);
+}
+
+// Two programs that shared a sweep end at nearly the same time: neither waits for the other's page.
+TEST_F(StoreTest, SettlingDoesNotWaitForWhoElseHasItOpen) {
+  const auto begun = std::chrono::steady_clock::now();
+  {
+    Store a = open(), b = open();
+    a.put(point(1));
+    a.settle();
+    EXPECT_EQ(b.count("ok"), 1);
+  }
+  // Waiting lasts two minutes.
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(60));
+  EXPECT_FALSE(fs::exists(file("a.sqlite-wal"))) << "the last one that closes it takes the journal along";
 }
 
 TEST_F(StoreTest, FailedPointsCanBeForgotten) {
