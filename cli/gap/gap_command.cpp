@@ -53,7 +53,7 @@ struct DiagnoseArguments {
 Scenario twin(Scenario scenario, const Replay& replay, const gap::Diagnosis& d) {
   if (!d.twin_is_nominal()) {
     std::vector<Effect> once;
-    for (const Effect& e : combined(scenario.effects, gap::twin_effects(d.twin))) {
+    for (const Effect& e : combined(scenario.effects, d.twin.driven_at(d.twin.p))) {
       const auto there =
           std::find_if(once.begin(), once.end(), [&](const Effect& other) { return other.info == e.info; });
       if (there == once.end())

@@ -35,7 +35,7 @@ std::vector<Pose2> driven(const Model& model, std::size_t run, const std::vector
   try {
     return model.simulate_run(run, effects);
   } catch (const std::runtime_error&) {
-    return model.simulate_run(run, fit.effects());
+    return model.simulate_run(run, fit.driven_at(fit.p));
   }
 }
 
@@ -70,7 +70,7 @@ Closure held_out_closure(const Model& model, const Fit& fit) {
     const Eigen::VectorXd numbers = model.numbers_on(fit, rest);
     for (const std::size_t r : held) {
       const TrackMisfit plain = aligned_misfit(model, r, model.nominal().tracks[r]);
-      const TrackMisfit with = aligned_misfit(model, r, driven(model, r, fit.effects_at(numbers), fit));
+      const TrackMisfit with = aligned_misfit(model, r, driven(model, r, fit.driven_at(numbers), fit));
       before[r] = plain.mean_square_m2;
       after[r] = with.mean_square_m2;
       floor[r] = mean(noise[r]);
@@ -78,7 +78,7 @@ Closure held_out_closure(const Model& model, const Fit& fit) {
       after_rad2 += with.end_rad * with.end_rad / double(runs);
       for (std::size_t i = 0; i < parts; ++i) {
         const TrackMisfit less =
-            parts == 1 ? plain : aligned_misfit(model, r, driven(model, r, fit.effects_at(numbers, i), fit));
+            parts == 1 ? plain : aligned_misfit(model, r, driven(model, r, fit.driven_at(numbers, i), fit));
         without[i].mean_square_m2 += less.mean_square_m2 / double(runs);
         without[i].end_rad += less.end_rad * less.end_rad / double(runs);
       }

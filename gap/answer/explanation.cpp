@@ -45,9 +45,10 @@ void put_first(const Fit& fit, double leftover, Diagnosis& d) {
 // An effect that is found, but not fitted, in place of what would be unknown. Whether there is one.
 bool named_without_fit(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis& d) {
   if (w.may_name(kUnevenFloor)) {
-    if (const auto uneven = with_uneven_floor(w.model, w.none, best, left.lack, w.thresholds)) {
-      if (uneven->hypotheses.size() == 1) add_nothing(d.closure);
+    const Fit& beside = takes_enough(w.model, best, d.closure) ? best : w.none;
+    if (const auto uneven = with_uneven_floor(w.model, w.none, beside, left.lack, w.thresholds)) {
       best = *uneven;
+      if (best.hypotheses.size() == 1) add_nothing(d.closure);
       put_first(best, left.all(), d);
       d.not_fitted = true;
       d.limits.push_back("an uneven floor's shape is not fitted: the twin has no such floor");
@@ -84,7 +85,7 @@ void make_twin(const Context& w, bool unknown, Diagnosis& d) {
   if (d.twin_is_nominal()) add_nothing(d.closure);
   if (misleads && !unknown)
     d.limits.push_back("what was found foretells the other runs badly: the twin goes without it");
-  else if (!d.twin_is_nominal() && d.twin.hypotheses.size() < d.explanation.hypotheses.size())
+  else if (!d.twin.driven_at(d.twin.p).empty() && d.twin.hypotheses.size() < d.explanation.hypotheses.size())
     d.limits.push_back(
         fmt::format("the twin holds {} alone: the rest foretells held-out runs no better", d.twin.name()));
 }
@@ -96,7 +97,7 @@ bool twin_lacks_mends_alone(const Model& model, const Diagnosis& d) {
                        [&](const Hypothesis& h) { return h.effect == effect; });
   };
   return std::all_of(d.explanation.hypotheses.begin(), d.explanation.hypotheses.end(), [&](const Hypothesis& h) {
-    return in_twin(h.effect) || !is_kinematic(h.effect) || mends_contacts(model, h.effect);
+    return in_twin(h.effect) || !is_kinematic(h.effect) || mends_contacts(model, d.explanation, h.effect);
   });
 }
 

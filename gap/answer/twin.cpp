@@ -10,32 +10,26 @@ namespace umbsim::gap {
 
 namespace {
 
+double worth_mm2(const Closure& closure, std::size_t hypothesis) {
+  const double mm = closure.worth[hypothesis].mm;
+  return mm * (2 * closure.after_mm + mm);
+}
+
 // By how many mm^2 an effect must bring held-out runs nearer. What another engine's contacts do otherwise than these is
-// mended by many an effect: beside the one that explains most, a contact or a dimension must take away what noise
-// makes, and, if it acts everywhere as contacts do, as much as nothing explains.
+// mended by many an effect: beside others a contact or a dimension must take away what noise makes, and, if it acts
+// everywhere as contacts do, as much as nothing explains.
 double least_worth_mm2(const Model& model, const Fit& fit, std::size_t hypothesis, const Closure& closure) {
   const Hypothesis& h = fit.hypotheses[hypothesis];
-  if (hypothesis == 0 || !mends_contacts(model, h.effect)) return 0;
+  if (!mends_contacts(model, fit, h.effect)) return 0;
   const double least_mm = h.search_cost > 0 ? closure.floor_mm : std::max(closure.floor_mm, closure.after_mm);
   return least_mm * least_mm;
 }
 
 }  // namespace
 
-bool mends_contacts(const Model& model, const std::string& effect) {
-  return model.taken_for_another_engines() && (is_contact(effect) || is_dimension(effect));
-}
-
-std::vector<Effect> twin_effects(const Fit& fit) {
-  std::vector<Effect> effects;
-  Eigen::Index at = 0;
-  for (const Hypothesis& f : fit.hypotheses) {
-    const Eigen::VectorXd p = fit.p.segment(at, Eigen::Index(f.parameters.size()));
-    at += p.size();
-    if (f.shape_unknown) continue;
-    for (Effect& e : effects_of(f, p)) effects.push_back(std::move(e));
-  }
-  return effects;
+bool mends_contacts(const Model& model, const Fit& fit, const std::string& effect) {
+  const bool another_engines = model.taken_for_another_engines() || !model.same_engine(fit);
+  return another_engines && (is_contact(effect) || is_dimension(effect));
 }
 
 void add_nothing(Closure& closure) {
@@ -56,13 +50,19 @@ bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& clo
   return worth_mm > closure.after_mm || (!fit.is_local() && closure.after_mm <= closure.most_noise_mm);
 }
 
+bool takes_enough(const Model& model, const Fit& fit, const Closure& closure) {
+  for (std::size_t i = 0; closure.known && i < closure.worth.size(); ++i) {
+    if (worth_mm2(closure, i) < least_worth_mm2(model, fit, i, closure)) return false;
+  }
+  return true;
+}
+
 void keep_what_foretells(const Model& model, Fit& twin, Closure& closure) {
   while (closure.known && closure.worth.size() > 1) {
     // How far each is from what it must bring.
     std::vector<double> lacks;
     for (std::size_t i = 0; i < closure.worth.size(); ++i) {
-      const double worth_mm2 = closure.worth[i].mm * (2 * closure.after_mm + closure.worth[i].mm);
-      lacks.push_back(least_worth_mm2(model, twin, i, closure) - worth_mm2);
+      lacks.push_back(least_worth_mm2(model, twin, i, closure) - worth_mm2(closure, i));
     }
     const auto most = std::max_element(lacks.begin(), lacks.end());
     if (*most <= 0) return;
@@ -71,9 +71,12 @@ void keep_what_foretells(const Model& model, Fit& twin, Closure& closure) {
     const Fit fewer = model.without(twin, out);
     const Closure with_fewer = held_out_closure(model, fewer);
     const double lost_mm2 = with_fewer.after_mm * with_fewer.after_mm - closure.after_mm * closure.after_mm;
-    if (!with_fewer.known || lost_mm2 >= least_mm2) return;
+    if (lost_mm2 >= least_mm2) return;
     twin = fewer;
-    closure = with_fewer;
+    if (with_fewer.known)
+      closure = with_fewer;
+    else
+      add_nothing(closure);
   }
 }
 
@@ -81,7 +84,8 @@ Remainder remainder_of(const Model& model, const Screen& screen, const Fit& none
   Remainder rest;
   const Fit& twin = d.twin_is_nominal() ? none : d.twin;
   rest.mm = d.closure.known ? d.closure.after_mm : 1000 * std::sqrt(mean_square_error_m2(model, twin.predicted.tracks));
-  rest.share = d.closure.known ? std::max(0.0, 1 - d.closure.fraction) : d.twin_is_nominal() ? 1 : 0;
+  const bool gap = d.twin_is_nominal() || d.closure.before_mm > d.closure.most_noise_mm;
+  rest.share = d.closure.known ? std::max(0.0, 1 - d.closure.fraction) : gap ? 1 : 0;
   const auto unfitted = [](const Hypothesis& f) { return f.shape_unknown; };
   const auto& hypotheses = d.explanation.hypotheses;
   if (!d.unexplained || std::any_of(hypotheses.begin(), hypotheses.end(), unfitted)) return rest;

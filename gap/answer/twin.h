@@ -7,11 +7,9 @@
 
 namespace umbsim::gap {
 
-/// Whether an effect moves robots as another engine's contacts do: at a contact, or with every metre or turn.
-bool mends_contacts(const Model& model, const std::string& effect);
-
-/// The effects of a fit that can be simulated: without those of which only the strength is known.
-std::vector<Effect> twin_effects(const Fit& fit);
+/// Whether a fit, or the model, says that another engine made the runs, and an effect moves robots as its contacts do:
+/// at a contact, or with every metre or turn.
+bool mends_contacts(const Model& model, const Fit& fit, const std::string& effect);
 
 /// The closure of a twin that is the scenario as it was.
 void add_nothing(Closure& closure);
@@ -19,6 +17,10 @@ void add_nothing(Closure& closure);
 /// Whether, seen by a tracker whose frame and clock are free, an explanation takes more millimetres off held-out runs
 /// than it leaves, or all that is beyond noise. What it leaves of the evidence may be the tracker.
 bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure);
+
+/// Whether every effect of a fit that may mend another engine's contacts takes as much off held-out runs as noise
+/// makes, and, if it acts everywhere, as much as it leaves. `closure`: of the fit.
+bool takes_enough(const Model& model, const Fit& fit, const Closure& closure);
 
 /// Takes out the effects that foretell held-out runs worse than the others do alone, and on another engine's runs those
 /// beside them that mend its contacts and take away too little to be told from noise and from what nothing explains.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <stdexcept>
 
@@ -11,19 +12,32 @@
 
 namespace umbsim::gap {
 
-std::vector<Effect> Fit::effects() const { return effects_at(p); }
+namespace {
 
-std::vector<Effect> Fit::effects_at(const Eigen::VectorXd& numbers, std::size_t without) const {
+// Effects of the hypotheses that are chosen by their index.
+std::vector<Effect> effects_where(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& numbers,
+                                  const std::function<bool(std::size_t)>& chosen) {
   std::vector<Effect> all;
   Eigen::Index at = 0;
   for (std::size_t i = 0; i < hypotheses.size(); ++i) {
     const Eigen::Index n = Eigen::Index(hypotheses[i].parameters.size());
-    if (i != without) {
+    if (chosen(i)) {
       for (Effect& e : effects_of(hypotheses[i], numbers.segment(at, n))) all.push_back(std::move(e));
     }
     at += n;
   }
   return all;
+}
+
+}  // namespace
+
+std::vector<Effect> Fit::effects() const {
+  return effects_where(hypotheses, p, [](std::size_t) { return true; });
+}
+
+std::vector<Effect> Fit::driven_at(const Eigen::VectorXd& numbers, std::size_t without) const {
+  return effects_where(hypotheses, numbers,
+                       [&](std::size_t i) { return i != without && !hypotheses[i].shape_unknown; });
 }
 
 std::string Fit::name() const {
@@ -49,7 +63,7 @@ Linearisation Model::linearised(const Fit& fit) const {
   const auto stepped = [&](Eigen::Index i) {
     Eigen::VectorXd p = fit.p;
     p[i] += steps[std::size_t(i)];
-    return fit.effects_at(p);
+    return fit.driven_at(p);
   };
   std::vector<std::vector<Effect>> sets;
   for (Eigen::Index i = 0; i < fit.p.size(); ++i) {

@@ -55,8 +55,8 @@ struct Fit {
   double seen = 0;  ///< root mean square of the same in the whitened tracks: what makes no way, but shakes, shows here
 
   std::vector<Effect> effects() const;
-  /// The effects with other numbers; `without`: but for those of one hypothesis.
-  std::vector<Effect> effects_at(const Eigen::VectorXd& numbers, std::size_t without = std::size_t(-1)) const;
+  /// The effects that a robot can be driven with, at other numbers; `without`: but for those of one hypothesis.
+  std::vector<Effect> driven_at(const Eigen::VectorXd& numbers, std::size_t without = std::size_t(-1)) const;
   std::string name() const;   ///< effects joined by "+", in alphabetical order
   bool is_kinematic() const;  ///< all of its effects are
   bool is_local() const;      ///< one of them is at a place or a moment

@@ -161,13 +161,14 @@ std::string worth(const Diagnosis& d) {
   const std::string it = several ? "together they take" : "that takes";
   const Closure& c = d.closure;
   if (c.before_mm == 0) return worth_on_these_runs(d, it);
-  if (!c.known)
+  if (!c.known && c.before_mm <= c.most_noise_mm)
     return "No track strays by more than noise makes it: there is nothing to take away." + shown_by_counts(d);
-  if (c.after_mm == c.before_mm) {
-    return d.twin_is_nominal()
-               ? fmt::format("But {} nothing away on runs that were held out: the twin goes without.", it) +
-                     shown_by_counts(d)
-               : "What it does to each run cannot be reproduced: the twin goes without.";
+  if (!c.known || c.after_mm == c.before_mm) {
+    if (!d.twin_is_nominal() && d.not_fitted)
+      return "What it does to each run cannot be reproduced: the twin goes without.";
+    return fmt::format("But {} nothing away on runs that were held out{}.", it,
+                       d.twin_is_nominal() ? ": the twin goes without" : "") +
+           shown_by_counts(d);
   }
   std::string text =
       fmt::format("{} away {} on runs that were held out.", capitalised(it), taken_away(c.before_mm, c.after_mm));

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iostream>
 
-#include "gap/answer/twin.h"
 #include "gap/diagnose.h"
 #include "gap/evidence/track_misfit.h"
 #include "gap/replay/command_response.h"
@@ -61,7 +60,7 @@ TEST(UnevenFloor, IsNamedAndStaysOutOfTheTwin) {
   ASSERT_EQ(d.causes.front().name, "uneven_floor");
   EXPECT_EQ(d.stage, "floor");
   EXPECT_FALSE(d.has_place);
-  EXPECT_TRUE(twin_effects(d.causes.front().fit).empty());
+  EXPECT_TRUE(d.twin.driven_at(d.twin.p).empty());
   // Where it may not be named, above all no other effect is.
   EXPECT_EQ(p.diagnosed({"uneven_floor"}).causes.front().name, "unknown");
 }
