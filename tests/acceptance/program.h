@@ -19,7 +19,7 @@ namespace umbsim::acceptance {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Exit codes (docs/outputs).
+// Exit codes (docs/outputs.md).
 constexpr int kBadInput = 2, kRunFailed = 3;
 
 inline std::string text_of(const fs::path& file) {
