@@ -97,7 +97,7 @@ bool twin_lacks_mends_alone(const Model& model, const Diagnosis& d) {
                        [&](const Hypothesis& h) { return h.effect == effect; });
   };
   return std::all_of(d.explanation.hypotheses.begin(), d.explanation.hypotheses.end(), [&](const Hypothesis& h) {
-    return in_twin(h.effect) || !is_kinematic(h.effect) || mends_contacts(model, d.explanation, h.effect);
+    return in_twin(h.effect) || !is_kinematic(h.effect) || mends_contacts(model, h.effect);
   });
 }
 

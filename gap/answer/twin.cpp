@@ -15,21 +15,19 @@ double worth_mm2(const Closure& closure, std::size_t hypothesis) {
   return mm * (2 * closure.after_mm + mm);
 }
 
-// By how many mm^2 an effect must bring held-out runs nearer. What another engine's contacts do otherwise than these is
-// mended by many an effect: beside others a contact or a dimension must take away what noise makes, and, if it acts
-// everywhere as contacts do, as much as nothing explains.
-double least_worth_mm2(const Model& model, const Fit& fit, std::size_t hypothesis, const Closure& closure) {
-  const Hypothesis& h = fit.hypotheses[hypothesis];
-  if (!mends_contacts(model, fit, h.effect)) return 0;
+bool may_mend(const std::string& effect) { return is_contact(effect) || is_dimension(effect); }
+
+// By how many mm^2 an effect that may mend another engine's contacts must bring held-out runs nearer: what noise makes,
+// and, if it acts everywhere as contacts do, as much as nothing explains.
+double least_of_a_mend_mm2(const Hypothesis& h, const Closure& closure) {
   const double least_mm = h.search_cost > 0 ? closure.floor_mm : std::max(closure.floor_mm, closure.after_mm);
   return least_mm * least_mm;
 }
 
 }  // namespace
 
-bool mends_contacts(const Model& model, const Fit& fit, const std::string& effect) {
-  const bool another_engines = model.taken_for_another_engines() || !model.same_engine(fit);
-  return another_engines && (is_contact(effect) || is_dimension(effect));
+bool mends_contacts(const Model& model, const std::string& effect) {
+  return model.taken_for_another_engines() && may_mend(effect);
 }
 
 void add_nothing(Closure& closure) {
@@ -51,8 +49,10 @@ bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& clo
 }
 
 bool takes_enough(const Model& model, const Fit& fit, const Closure& closure) {
-  for (std::size_t i = 0; closure.known && i < closure.worth.size(); ++i) {
-    if (worth_mm2(closure, i) < least_worth_mm2(model, fit, i, closure)) return false;
+  if (model.same_engine(fit) || !closure.known) return true;
+  for (std::size_t i = 0; i < closure.worth.size(); ++i) {
+    const Hypothesis& h = fit.hypotheses[i];
+    if (may_mend(h.effect) && worth_mm2(closure, i) < least_of_a_mend_mm2(h, closure)) return false;
   }
   return true;
 }
@@ -60,18 +60,19 @@ bool takes_enough(const Model& model, const Fit& fit, const Closure& closure) {
 void keep_what_foretells(const Model& model, Fit& twin, Closure& closure) {
   while (closure.known && closure.worth.size() > 1) {
     // How far each is from what it must bring.
+    const auto least_mm2 = [&](std::size_t i) {
+      const Hypothesis& h = twin.hypotheses[i];
+      return mends_contacts(model, h.effect) ? least_of_a_mend_mm2(h, closure) : 0;
+    };
     std::vector<double> lacks;
-    for (std::size_t i = 0; i < closure.worth.size(); ++i) {
-      lacks.push_back(least_worth_mm2(model, twin, i, closure) - worth_mm2(closure, i));
-    }
+    for (std::size_t i = 0; i < closure.worth.size(); ++i) lacks.push_back(least_mm2(i) - worth_mm2(closure, i));
     const auto most = std::max_element(lacks.begin(), lacks.end());
     if (*most <= 0) return;
     const std::size_t out = std::size_t(most - lacks.begin());
-    const double least_mm2 = least_worth_mm2(model, twin, out, closure);
     const Fit fewer = model.without(twin, out);
     const Closure with_fewer = held_out_closure(model, fewer);
     const double lost_mm2 = with_fewer.after_mm * with_fewer.after_mm - closure.after_mm * closure.after_mm;
-    if (lost_mm2 >= least_mm2) return;
+    if (lost_mm2 >= least_mm2(out)) return;
     twin = fewer;
     if (with_fewer.known)
       closure = with_fewer;

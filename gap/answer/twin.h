@@ -7,9 +7,8 @@
 
 namespace umbsim::gap {
 
-/// Whether a fit, or the model, says that another engine made the runs, and an effect moves robots as its contacts do:
-/// at a contact, or with every metre or turn.
-bool mends_contacts(const Model& model, const Fit& fit, const std::string& effect);
+/// Whether an effect moves robots as another engine's contacts do: at a contact, or with every metre or turn.
+bool mends_contacts(const Model& model, const std::string& effect);
 
 /// The closure of a twin that is the scenario as it was.
 void add_nothing(Closure& closure);
@@ -18,8 +17,8 @@ void add_nothing(Closure& closure);
 /// than it leaves, or all that is beyond noise. What it leaves of the evidence may be the tracker.
 bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure);
 
-/// Whether every effect of a fit that may mend another engine's contacts takes as much off held-out runs as noise
-/// makes, and, if it acts everywhere, as much as it leaves. `closure`: of the fit.
+/// Whether a fit by which another engine made the runs takes enough off held-out ones: each effect that may mend its
+/// contacts as much as noise makes, and, if it acts everywhere, as much as is left. `closure`: of the fit.
 bool takes_enough(const Model& model, const Fit& fit, const Closure& closure);
 
 /// Takes out the effects that foretell held-out runs worse than the others do alone, and on another engine's runs those

@@ -172,8 +172,11 @@ TEST(Verdict, MissingClosureIsSaid) {
   expect_in(said(d),
             "On these very runs that takes away 22 of 45 mm; how much it would be on others is not known, for "
             "all were driven alike.");
-  d.closure.before_mm = 5;  // held out, but within noise
+  d.closure.before_mm = d.closure.after_mm = 5;  // held out, but within noise
+  d.closure.most_noise_mm = 6;
   expect_in(said(d), "No track strays by more than noise makes it");
+  d.closure.most_noise_mm = 4;  // a gap, and a cause that moves no pose
+  expect_in(said(d), "But that takes nothing away on runs that were held out.");
   d = found({wheelbase(0.005)});
   d.twin = {};
   d.closure.after_mm = d.closure.before_mm;
