@@ -1,4 +1,4 @@
-// The figures and their bars, from what umbsim_compare, umbsim_micro and umbsim_instructions wrote into a folder:
+// The figures and their bars, from what umbsim_engines_compare, umbsim_micro and umbsim_instructions wrote into a folder:
 // prints one table, writes bench.json and the tables of docs/bench.md.
 #include <algorithm>
 #include <cstdio>

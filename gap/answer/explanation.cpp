@@ -47,8 +47,8 @@ bool named_without_fit(const Context& w, const LeftUnexplained& left, Fit& best,
   if (w.may_name(kUnevenFloor)) {
     const Fit& beside = takes_enough(w.model, best, d.closure) ? best : w.none;
     if (const auto uneven = with_uneven_floor(w.model, w.none, beside, left.lack, w.thresholds)) {
+      if (uneven->hypotheses.size() == 1) add_nothing(d.closure);
       best = *uneven;
-      if (best.hypotheses.size() == 1) add_nothing(d.closure);
       put_first(best, left.all(), d);
       d.not_fitted = true;
       d.limits.push_back("an uneven floor's shape is not fitted: the twin has no such floor");
@@ -85,7 +85,7 @@ void make_twin(const Context& w, bool unknown, Diagnosis& d) {
   if (d.twin_is_nominal()) add_nothing(d.closure);
   if (misleads && !unknown)
     d.limits.push_back("what was found foretells the other runs badly: the twin goes without it");
-  else if (!d.twin.driven_at(d.twin.p).empty() && d.twin.hypotheses.size() < d.explanation.hypotheses.size())
+  else if (!d.twin_is_nominal() && d.twin.hypotheses.size() < d.explanation.hypotheses.size())
     d.limits.push_back(
         fmt::format("the twin holds {} alone: the rest foretells held-out runs no better", d.twin.name()));
 }

@@ -13,12 +13,13 @@
 namespace umbsim {
 namespace {
 
+using testing::kCreep;
 using testing::kG;
 using testing::kWheelbase_m;
 using testing::rig_with;
 using testing::TrialDrive;
 
-constexpr double kSwivelCreep = 0.02, kTrail_m = 0.03, kFriction_nm = 0.2, kSwivel_m = 0.25;
+constexpr double kTrail_m = 0.03, kFriction_nm = 0.2, kSwivel_m = 0.25;
 // The bearing's friction fades where a swivels slower than this share of the rolling rate (sim/step.cpp).
 constexpr double kFade = 0.05;
 constexpr double kTurn_rad = M_PI / 2;
@@ -84,7 +85,7 @@ double kick_rate(const RobotModel& robot, double a) {
   const double left_n = wheels_n / 2 + sideways_n, right_n = wheels_n / 2 - sideways_n;
   const double half_drag_n = force_n * std::sin(a) / 2;
   const double couple_n = force_n * (kSwivel_m * std::cos(a) - kTrail_m) / kWheelbase_m;
-  return kSwivelCreep / kWheelbase_m * ((half_drag_n + couple_n) / left_n - (half_drag_n - couple_n) / right_n);
+  return kCreep / kWheelbase_m * ((half_drag_n + couple_n) / left_n - (half_drag_n - couple_n) / right_n);
 }
 
 // Heading error after `distance_m` of a leg that begins with the swivel angle a. The kick itself swings the caster,
@@ -133,7 +134,7 @@ Kick kick_after_turn(const Rig& rig, int sense) {
 }
 
 Rig creeping_rig(double initial_angle_rad = 0) {
-  return rig_with(TyreCreep{kSwivelCreep, 0}, CasterSwivel{kTrail_m, kFriction_nm, initial_angle_rad});
+  return rig_with(TyreCreep{kCreep, 0}, CasterSwivel{kTrail_m, kFriction_nm, initial_angle_rad});
 }
 
 void expect_kick(const Kick& measured, const Kick& expected, const std::string& what) {
@@ -174,7 +175,7 @@ TEST(CasterSwivel, WithoutFrictionOrCreepThereIsNoKick) {
   const auto far = [](const Rig& rig) { return std::abs(kick_after_turn(rig, 1).far); };
   const double with = far(creeping_rig());
   // What is left: the fork's and wheel's inertia as they swing round.
-  const double free = far(rig_with(TyreCreep{kSwivelCreep, kSwivelCreep}, CasterSwivel{kTrail_m, 0, 0}));
+  const double free = far(rig_with(TyreCreep{kCreep, kCreep}, CasterSwivel{kTrail_m, 0, 0}));
   const double rigid = far(rig_with(CasterSwivel{kTrail_m, kFriction_nm, 0}));
   std::cout << "kick " << with << " rad; free bearing " << free << "; rigid tyres " << rigid << "\n";
   EXPECT_LT(free, 2e-3 * with);

@@ -1,10 +1,9 @@
 // Tyres and casters against statics: what the floor must push is known, so what the tyre gives way is known.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <iostream>
-
-#include <fmt/format.h>
 
 #include "effects/contact.h"
 #include "effects/geometry.h"
@@ -13,6 +12,7 @@
 namespace umbsim {
 namespace {
 
+using testing::kCreep;
 using testing::kG;
 using testing::kRadius_m;
 using testing::kWheelbase_m;
@@ -20,7 +20,6 @@ using testing::rig_with;
 using testing::Statics;
 using testing::TrialDrive;
 
-constexpr double kCreep = 0.02;
 constexpr double kMu = 0.9;
 // The laws are linear; the closed forms leave out second-order terms (slip 1e-3) and the step is finite (20 ms).
 constexpr double kLinear = 2e-3;
@@ -90,8 +89,8 @@ LineContact line_contact(double width_m, double creep, double rolled_m, double s
   return sum;
 }
 
-// Turning on the spot the wheels work against both moments with a force 2 M / b each, for which they must slip. The share
-// of the turn that is lost, by bisection of the slip; the load does not matter.
+// Turning on the spot the wheels work against both moments with a force 2 M / b each, for which they must slip. The
+// share of the turn that is lost, by bisection of the slip; the load does not matter.
 double share_lost(double width_m, double creep) {
   double low = 0;
   double high = width_m / 2 + 0.01;
@@ -161,7 +160,7 @@ TEST(ContactPatch, RigidTyresLoseTheSameShareOfEveryCurve) {
 
 // A robot at 0.2 m/s that is held back, driven on or pushed aside at the axle by a steady force.
 struct Pushed {
-  double traction = 0;     ///< F / N, of both wheels
+  double traction = 0;  ///< F / N, of both wheels
   double slip_along = 0;
   double slip_across = 0;
 };

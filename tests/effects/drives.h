@@ -8,13 +8,11 @@
 #include <vector>
 
 #include "experiment/run.h"
+#include "tests/effects/labmate.h"
 #include "tests/experiment/scenarios.h"
 #include "umbmark/course.h"
 
 namespace umbsim::testing {
-
-/// The nominal LabMate.
-constexpr double kRadius_m = 0.075, kWheelbase_m = 0.340;
 
 /// The nominal LabMate's square with these effects (the YAML of the map `effects:`), 1e6 ticks per revolution.
 inline ExperimentResult drive(const std::string& effects, std::vector<std::string> settings = {}) {

@@ -12,6 +12,7 @@
 namespace umbsim {
 namespace {
 
+using testing::kCreep;
 using testing::kG;
 using testing::kRadius_m;
 using testing::kWheelbase_m;
@@ -19,7 +20,7 @@ using testing::rig_with;
 using testing::Statics;
 using testing::TrialDrive;
 
-constexpr double kFloorCreep = 0.02, kSlope_rad = 0.02;
+constexpr double kSlope_rad = 0.02;
 // What "rigid" contact gives way to the weight's 8 N, at 1e-9 m/s per newton, in ten seconds; the same as an angle.
 constexpr double kHeldDownhill_m = 4e-7, kHeldDownhill_rad = 4e-7;
 
@@ -37,8 +38,8 @@ Pose2 creep_downhill(const RobotModel& robot, double downhill_rad, double distan
     const double wheels_n = m * down - (base_kg * down * x_b + tip_kgm * gx) / x_c;
     const double left_n = wheels_n / 2 + tip_kgm * gy / b, right_n = wheels_n / 2 - tip_kgm * gy / b;
     const double left_f = -m * gx / 2 + base_kg * x_b * gy / b, right_f = -m * gx / 2 - base_kg * x_b * gy / b;
-    const double left = 1 - kFloorCreep * left_f / left_n, right = 1 - kFloorCreep * right_f / right_n;
-    const double across = kFloorCreep * m * gy / wheels_n;
+    const double left = 1 - kCreep * left_f / left_n, right = 1 - kCreep * right_f / right_n;
+    const double across = kCreep * m * gy / wheels_n;
     const double forward = (left + right) / 2, turn = (right - left) / b * ds, middle = X.theta_rad + turn / 2;
     X.x_m += (forward * std::cos(middle) - across * std::sin(middle)) * ds;
     X.y_m += (forward * std::sin(middle) + across * std::cos(middle)) * ds;
@@ -74,7 +75,7 @@ TEST(FloorSlope, DoesNothingToARollingRobotWithoutCreep) {
 TEST(FloorSlope, CreepsDownhill) {
   constexpr double kShare = 0.002;  // 20 ms steps; loads by first-order statics
   for (const double downhill_rad : {0.0, 1.0, M_PI / 2, 3.0, -1.0}) {
-    const auto [e, before_rad] = slope_error(kFloorCreep, downhill_rad);
+    const auto [e, before_rad] = slope_error(kCreep, downhill_rad);
     const Pose2 expected = creep_downhill(rig_with().robot, downhill_rad, 2, before_rad);
     std::cout << "downhill " << downhill_rad << ": " << e.x_m << ", " << e.y_m << " m, " << e.theta_rad << " rad ("
               << expected.x_m << ", " << expected.y_m << ", " << expected.theta_rad << ")\n";
@@ -86,8 +87,8 @@ TEST(FloorSlope, CreepsDownhill) {
 }
 
 TEST(FloorSlope, BelongsToTheFloor) {
-  const Pose2 a = slope_error(kFloorCreep, 1).added, turned = slope_error(kFloorCreep, 1.7, 0.7).added;
-  const Pose2 mirrored = slope_error(kFloorCreep, -1).added;
+  const Pose2 a = slope_error(kCreep, 1).added, turned = slope_error(kCreep, 1.7, 0.7).added;
+  const Pose2 mirrored = slope_error(kCreep, -1).added;
   const Pose2 expected = Pose2{0, 0, 0.7} * Pose2{a.x_m, a.y_m, 0};
   EXPECT_NEAR(turned.x_m, expected.x_m, 1e-9);
   EXPECT_NEAR(turned.y_m, expected.y_m, 1e-9);

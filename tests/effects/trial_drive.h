@@ -5,11 +5,10 @@
 #include "effects/rig.h"
 #include "odometry/dead_reckoning.h"
 #include "sim/world.h"
+#include "tests/effects/labmate.h"
 #include "tests/sim/rolling_robot.h"
 
 namespace umbsim::testing {
-
-constexpr double kRadius_m = 0.075, kWheelbase_m = 0.340;
 
 /// A rig around the robot of round numbers, with effects applied to it.
 template <class... Effects>
@@ -23,8 +22,7 @@ Rig rig_with(const Effects&... effects) {
 /// Load on each support of a robot that stands or drives steadily on a level floor: moments about the axle and about
 /// the robot's long axis.
 struct Statics {
-  explicit Statics(const RobotModel& robot)
-      : weight_n(robot.total_mass_kg() * kG), base_n(robot.base.mass_kg * kG) {
+  explicit Statics(const RobotModel& robot) : weight_n(robot.total_mass_kg() * kG), base_n(robot.base.mass_kg * kG) {
     const Eigen::Vector3d& caster = robot.casters[0].centre_m;
     caster_n = base_n * robot.base.com_m.x() / caster.x();
     wheels_n = weight_n - caster_n;

@@ -60,6 +60,7 @@ TEST(UnevenFloor, IsNamedAndStaysOutOfTheTwin) {
   ASSERT_EQ(d.causes.front().name, "uneven_floor");
   EXPECT_EQ(d.stage, "floor");
   EXPECT_FALSE(d.has_place);
+  EXPECT_TRUE(d.causes.front().fit.driven_at(d.causes.front().fit.p).empty());
   EXPECT_TRUE(d.twin.driven_at(d.twin.p).empty());
   // Where it may not be named, above all no other effect is.
   EXPECT_EQ(p.diagnosed({"uneven_floor"}).causes.front().name, "unknown");
