@@ -179,8 +179,15 @@ function setup(section: HTMLElement, id: string, title: string, player: Player):
     }).observe(canvas);
   };
   show(false);
-  // The charts are seen first.
-  requestAnimationFrame(() => setTimeout(begin));
+  // A picture takes longer than all charts: it is made when the reader comes within a screen's height of it.
+  const near = new IntersectionObserver(([entry]) => entry.isIntersecting && start(), {rootMargin: "100% 0%"});
+  const start = () => {
+    near.disconnect();
+    window.removeEventListener("beforeprint", start);
+    if (!replay) begin();
+  };
+  window.addEventListener("beforeprint", start);
+  near.observe(section);
 }
 
 const cables = (data: RunData, run: Tracked) => [
