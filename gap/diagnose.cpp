@@ -90,7 +90,8 @@ Diagnosis diagnose(Model& model, const std::set<std::string>& excluded, const Th
   };
   Diagnosis again = diagnosed(another, excluded, t, progress_again, none.log_evidence);
   const bool hidden = names_no_pose(again) && again.before_mm <= most_hidden_mm(another);
-  if (first.not_fitted || (cause.name == "unknown" && !hidden)) {
+  const bool excused = hidden || (again.causes.front().name != "unknown" && takes_more_than_it_leaves(again.closure));
+  if (first.not_fitted || (cause.name == "unknown" && !excused)) {
     first.simulated_s = again.simulated_s;
     return first;
   }

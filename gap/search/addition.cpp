@@ -43,8 +43,17 @@ double excess(const Model& model, const Fit& fit) {
   return std::max(0.0, std::min(sum, fit.misfit) - (1 + Thresholds{}.noise_error) * model.rows());
 }
 
-// Whether what `fit` adds is more than what the effects of `base` may do otherwise in another engine.
+bool holds_all_of(const Fit& fit, const Fit& base) {
+  return std::all_of(base.hypotheses.begin(), base.hypotheses.end(), [&](const Hypothesis& g) {
+    return std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(),
+                       [&](const Hypothesis& f) { return f.effect == g.effect; });
+  });
+}
+
+// Whether what `fit` adds is more than what the effects of `base` may do otherwise in another engine. An explanation by
+// other effects adds nothing to these.
 bool stays_beside(const Model& model, const Fit& base, const Fit& fit, const Needed& needed, double extra) {
+  if (!holds_all_of(fit, base)) return true;
   if (!needed.beside) {
     needed.beside = std::make_shared<const Model>(model.unsure_of(base));
     needed.base_beside = needed.beside->held_density(base) - model.held_density(base);

@@ -128,7 +128,13 @@ TEST(Unknown, WhatAPlaceTakesAwayIsNotCounted) {
   EXPECT_FALSE(worth_more_than_rest(p.model, fit, closure)) << "a place alone";
   fit.hypotheses.front() = plain_hypotheses(0.02, 2000).front();
   EXPECT_TRUE(worth_more_than_rest(p.model, fit, closure));
-  EXPECT_FALSE(worth_more_than_rest(Subject(campaign({}, 64)).model, fit, closure)) << "a tracker that is known";
+  const Subject known(campaign({}, 64));
+  EXPECT_FALSE(worth_more_than_rest(known.model, fit, closure)) << "a tracker that is known";
+  closure.most_noise_mm = 12;
+  EXPECT_TRUE(worth_more_than_rest(known.model, fit, closure)) << "another engine's runs are told within their noise";
+  fit.prior = known.model.none().prior;
+  ASSERT_TRUE(known.model.same_engine(fit));
+  EXPECT_FALSE(worth_more_than_rest(known.model, fit, closure)) << "this engine has no error of its own";
 }
 
 // On another engine's runs a radius or a wheelbase may mend its contacts. On this engine's they do not.

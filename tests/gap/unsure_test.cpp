@@ -2,10 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "gap/evidence/signature_shares.h"
+#include "gap/search/addition.h"
 #include "tests/gap/subject.h"
 
 namespace umbsim::gap {
@@ -50,6 +55,41 @@ TEST(UnsureModel, ForgivesWhatTheEffectsOfAFitMayDoOtherwise) {
   EXPECT_LT(unsure_toe, 0.2 * toe);
   EXPECT_GT(base, 100);
   EXPECT_GT(unsure_base, 0.3 * base);
+}
+
+Fit fit_of(const Model& model, const std::vector<std::string>& effects) {
+  std::vector<Hypothesis> chosen;
+  for (const std::string& e : effects) {
+    const std::vector<Hypothesis> all = plain_hypotheses(0.02, 2000);
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Hypothesis& h) { return h.effect == e; });
+    if (found != all.end()) chosen.push_back(*found);
+  }
+  EXPECT_EQ(chosen.size(), effects.size());
+  return model.fit(chosen);
+}
+
+// What an effect may do otherwise excuses what is added to it, and no explanation that does without it.
+TEST(UnsureModel, IsAskedForWhatStandsBesideAnEffectAndNotForWhatStandsInItsPlace) {
+  Scenario s = testing::squares(2, 2);
+  testing::add_noise(s, 12);
+  s.effects = {effect("wheelbase", {{"relative", 0.013}}), effect("wheel_radius_difference", {{"relative", 0.0005}})};
+  const Subject subject(run_experiment(s, 0).recording);
+  const Model& model = subject.model;
+  const Fit none = model.none();
+  const Fit wider = fit_of(model, {"wheelbase"});
+  const Fit toed = fit_of(model, {"wheel_misalignment"});
+  const Fit pair = fit_of(model, {"wheelbase", "wheel_radius_difference"});
+  Needed beside_wider = addition_needed(model, wider, none, Thresholds{});
+  Needed beside_toed = addition_needed(model, toed, none, Thresholds{});
+  EXPECT_TRUE(pays(model, wider, pair, beside_wider));
+  EXPECT_TRUE(pays(model, toed, pair, beside_toed));
+  // A model that excuses whatever the first effect leaves.
+  for (Needed* needed : {&beside_wider, &beside_toed}) {
+    needed->beside = std::make_shared<const Model>(model);
+    needed->base_beside = 1e6;
+  }
+  EXPECT_FALSE(pays(model, wider, pair, beside_wider));
+  EXPECT_TRUE(pays(model, toed, pair, beside_toed));
 }
 
 // Held at four fifths of its size an effect that acts in proportion does a quarter more than it should, in whatever
