@@ -6,6 +6,7 @@
 #include <string>
 
 #include "gap/answer/closure.h"
+#include "gap/evidence/track_misfit.h"
 #include "gap/search/addition.h"
 
 namespace umbsim::gap {
@@ -89,21 +90,48 @@ std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, con
   return kept;
 }
 
+namespace {
+
+// Whether `other` predicts held-out runs better than `front`, as `closure` says, which explains no more by much: as
+// well with fewer effects, or by more than noise with as many.
+bool predicts_better(const Model& model, const Fit& front, const Closure& closure, const Fit& other) {
+  const bool fewer = other.hypotheses.size() < front.hypotheses.size();
+  const double floor_mm = fewer ? 0 : closure.floor_mm;
+  const double as_good = fewer ? kAsGood : 1;
+  const auto better = [&](double after_mm, double other_mm) {
+    return after_mm > as_good * std::hypot(other_mm, floor_mm);
+  };
+  const auto in_sample_mm = [&](const Fit& f) {
+    return 1000 * std::sqrt(mean_square_error_m2(model, f.predicted.tracks));
+  };
+  if (!fewer && !better(in_sample_mm(front), in_sample_mm(other))) return false;
+  return better(closure.after_mm, held_out_closure(model, other).after_mm);
+}
+
+}  // namespace
+
 void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const Thresholds& t) {
-  while (causes.front().fit.hypotheses.size() > 1) {
-    const Cause& front = causes.front();
-    const auto& hypotheses = front.fit.hypotheses;
+  for (;;) {
+    const Fit& front = causes.front().fit;
     const auto dimension = [](const Hypothesis& f) { return is_dimension(f.effect); };
-    if (model.tracker_is_free() && std::all_of(hypotheses.begin(), hypotheses.end(), dimension)) return;
-    const double counts = model.counts_misfit(front.fit.predicted);
-    const auto simpler = std::find_if(causes.begin(), causes.end(), [&](const Cause& c) {
-      return !c.fit.hypotheses.empty() && c.fit.hypotheses.size() < front.fit.hypotheses.size() &&
-             c.score > (1 - kLittle) * front.score && model.counts_misfit(c.fit.predicted) < counts + 2 * t.addition;
-    });
-    if (simpler == causes.end()) return;
-    const Closure with = held_out_closure(model, front.fit);
-    const Closure without = held_out_closure(model, simpler->fit);
-    if (!with.known || with.after_mm <= kAsGood * without.after_mm) return;
+    if (model.tracker_is_free() && std::all_of(front.hypotheses.begin(), front.hypotheses.end(), dimension)) return;
+    const double counts = model.counts_misfit(front.predicted);
+    std::vector<const Fit*> others;
+    bool any_fewer = false;
+    for (std::size_t i = 1; i < causes.size() && causes[i].score > (1 - kLittle) * causes.front().score; ++i) {
+      const Fit& other = causes[i].fit;
+      const bool fewer = other.hypotheses.size() < front.hypotheses.size();
+      if (other.hypotheses.empty() || other.hypotheses.size() > front.hypotheses.size()) continue;
+      if (model.counts_misfit(other.predicted) >= counts + 2 * t.addition || (fewer && any_fewer)) continue;
+      any_fewer = any_fewer || fewer;
+      others.push_back(&other);
+    }
+    if (others.empty()) return;
+    const Closure closure = held_out_closure(model, front);
+    const bool gives_way = closure.known && std::any_of(others.begin(), others.end(), [&](const Fit* other) {
+                             return predicts_better(model, front, closure, *other);
+                           });
+    if (!gives_way) return;
     causes.erase(causes.begin());
   }
 }

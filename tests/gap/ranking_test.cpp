@@ -1,0 +1,50 @@
+// Which explanation goes first.
+#include "gap/answer/ranking.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tests/gap/subject.h"
+
+namespace umbsim::gap {
+namespace {
+
+using testing::campaign;
+using testing::effect;
+using testing::Subject;
+
+Cause cause_of(const Model& model, const std::vector<std::string>& effects, double score) {
+  std::vector<Hypothesis> chosen;
+  for (const Hypothesis& h : plain_hypotheses(0.02, 2000)) {
+    const auto same = [&](const Hypothesis& g) { return g.effect == h.effect; };
+    const bool wanted = std::find(effects.begin(), effects.end(), h.effect) != effects.end();
+    if (wanted && std::none_of(chosen.begin(), chosen.end(), same)) chosen.push_back(h);
+  }
+  EXPECT_EQ(chosen.size(), effects.size());
+  Fit fit = model.fit(chosen);
+  const std::string name = fit.name();
+  return {name, std::move(fit), score, 0};
+}
+
+// A wheelbase that is wrong, and what evidence might take for it where engines may differ in turns.
+TEST(Ranking, WhatPredictsHeldOutRunsWorseGivesWay) {
+  const Subject p(campaign({effect("wheelbase", {{"relative", 0.01}})}, 31));
+  const auto first = [&](std::vector<Cause> causes) {
+    prefer_what_predicts(p.model, causes, Thresholds{});
+    return causes.front().name;
+  };
+  const auto wheelbase = [&](double score) { return cause_of(p.model, {"wheelbase"}, score); };
+  const auto difference = [&](double score) { return cause_of(p.model, {"wheel_radius_difference"}, score); };
+  const auto both = [&](double score) { return cause_of(p.model, {"wheelbase", "wheel_radius_difference"}, score); };
+  EXPECT_EQ(first({difference(1000), wheelbase(960)}), "wheelbase") << "as many effects, and far better";
+  EXPECT_EQ(first({difference(1000), wheelbase(940)}), "wheel_radius_difference") << "it explains much less";
+  EXPECT_EQ(first({wheelbase(1000), difference(960)}), "wheelbase") << "as many effects, and worse";
+  EXPECT_EQ(first({difference(1000), both(990)}), "wheel_radius_difference") << "more effects never come first by this";
+  EXPECT_EQ(first({both(1000), difference(960)}), "wheel_radius_difference+wheelbase") << "fewer, and worse";
+}
+
+}  // namespace
+}  // namespace umbsim::gap
