@@ -12,7 +12,6 @@ namespace umbsim::gap {
 namespace {
 
 constexpr int kResamples = 1000;
-constexpr int kNoiseDraws = 200;
 
 double mean(const std::vector<double>& values) {
   double sum = 0;
@@ -42,7 +41,7 @@ std::vector<Pose2> driven(const Model& model, std::size_t run, const std::vector
 }  // namespace
 
 double most_hidden_mm(const Model& model) {
-  const double sum_m2 = most_by_noise(noise_misfits_m2(model, kNoiseDraws, true));
+  const double sum_m2 = most_by_noise(model.noise_m2(true));
   return 1000 * std::sqrt(sum_m2 / double(model.all_runs().size()));
 }
 
@@ -56,7 +55,7 @@ Closure held_out_closure(const Model& model, const Fit& fit) {
   if (fit.hypotheses.empty() || conditions.size() < 2) return closure;
   std::vector<double> before(runs);
   std::vector<double> after(runs);
-  const auto noise = noise_misfits_m2(model, kNoiseDraws);
+  const auto& noise = model.noise_m2();
   std::vector<double> floor(runs);
   const std::size_t parts = fit.hypotheses.size();
   std::vector<TrackMisfit> without(parts);  // sums over the runs

@@ -92,20 +92,24 @@ std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, con
 
 namespace {
 
-// Whether `other` predicts held-out runs better than `front`, as `closure` says, which explains no more by much: as
-// well with fewer effects, or by more than noise with as many.
-bool predicts_better(const Model& model, const Fit& front, const Closure& closure, const Fit& other) {
-  const bool fewer = other.hypotheses.size() < front.hypotheses.size();
-  const double floor_mm = fewer ? 0 : closure.floor_mm;
-  const double as_good = fewer ? kAsGood : 1;
-  const auto better = [&](double after_mm, double other_mm) {
-    return after_mm > as_good * std::hypot(other_mm, floor_mm);
+double in_sample_mm(const Model& model, const Fit& fit) {
+  return 1000 * std::sqrt(mean_square_error_m2(model, fit.predicted.tracks));
+}
+
+// Whether `other`, of fewer effects, predicts held-out runs better than `closure`.
+bool fewer_predict_as_well(const Model& model, const Closure& closure, const Fit& other) {
+  return closure.after_mm > kAsGood * held_out_closure(model, other).after_mm;
+}
+
+// Whether `other`, of as many effects, leaves less than noise makes beyond noise, and `front` leaves more by a noise
+// floor.
+bool leaves_nothing(const Model& model, const Fit& front, const Closure& closure, const Fit& other) {
+  const auto nothing = [&](double other_mm, double front_mm) {
+    return std::pow(other_mm, 2) <= 2 * std::pow(closure.floor_mm, 2) &&
+           front_mm > std::hypot(other_mm, closure.floor_mm);
   };
-  const auto in_sample_mm = [&](const Fit& f) {
-    return 1000 * std::sqrt(mean_square_error_m2(model, f.predicted.tracks));
-  };
-  if (!fewer && !better(in_sample_mm(front), in_sample_mm(other))) return false;
-  return better(closure.after_mm, held_out_closure(model, other).after_mm);
+  return nothing(in_sample_mm(model, other), in_sample_mm(model, front)) &&
+         nothing(held_out_closure(model, other).after_mm, closure.after_mm);
 }
 
 }  // namespace
@@ -129,7 +133,9 @@ void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const 
     if (others.empty()) return;
     const Closure closure = held_out_closure(model, front);
     const bool gives_way = closure.known && std::any_of(others.begin(), others.end(), [&](const Fit* other) {
-                             return predicts_better(model, front, closure, *other);
+                             return other->hypotheses.size() < front.hypotheses.size()
+                                        ? fewer_predict_as_well(model, closure, *other)
+                                        : leaves_nothing(model, front, closure, *other);
                            });
     if (!gives_way) return;
     causes.erase(causes.begin());

@@ -15,8 +15,8 @@ std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, con
 std::vector<Cause> ranked(const std::vector<Fit>& fits, const Thresholds& thresholds);
 
 /// What predicts held-out runs worse than something that explains nearly as much gives way to it: worse than something
-/// simpler, or worse by more than noise than as many other effects. Not where counts and commands tell the two apart:
-/// they show what moves no track.
+/// simpler, or worse by a noise floor than as many other effects that leave no more beyond noise than noise itself. Not
+/// where counts and commands tell the two apart: they show what moves no track.
 void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const Thresholds& thresholds);
 
 /// Of explanations that are equally good, one goes first in which no contact takes part: it is the same on any floor.

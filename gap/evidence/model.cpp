@@ -70,6 +70,7 @@ void Model::take_for_another_engines() {
 
 // The tracks as noise leaves them to be seen, and what is fitted always.
 void Model::observe() {
+  noise_m2_ = {};
   filters_.clear();
   for (std::size_t r = 0; r < recording().runs.size(); ++r) {
     filters_.emplace_back(nominal_.tracks[r], nominal_.rolled_m[r], noise(r), nominal_.seen[r], nominal_.velocity[r]);

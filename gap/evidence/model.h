@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -140,6 +142,9 @@ class Model {
   std::vector<Predicted> predict(const std::vector<std::vector<Effect>>& sets,
                                  const std::vector<std::size_t>& some = {}) const;
 
+  /// Mean square position errors that noise alone makes (noise_misfits_m2), drawn once: kNoiseDraws of every run, m^2.
+  const std::vector<std::vector<double>>& noise_m2(bool other_engine = false) const;
+
   /// One run under effects.
   std::vector<Pose2> simulate_run(std::size_t run, const std::vector<Effect>& effects) const {
     return simulator_.ticks(run, effects, roughness_under(effects));
@@ -237,6 +242,7 @@ class Model {
   Nuisances nuisances_;
   std::vector<Eigen::MatrixXd> products_of_nuisances_;  ///< by run: shared, then the run's own
   mutable double simulated_s_ = 0;
+  mutable std::array<std::shared_ptr<const std::vector<std::vector<double>>>, 2> noise_m2_;  ///< as it was drawn
 };
 
 }  // namespace umbsim::gap

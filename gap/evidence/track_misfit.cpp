@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "core/random.h"
 
@@ -80,6 +81,14 @@ std::vector<std::vector<double>> noise_misfits_m2(const Model& model, int draws,
     }
   });
   return squares;
+}
+
+const std::vector<std::vector<double>>& Model::noise_m2(bool other_engine) const {
+  auto& drawn = noise_m2_[other_engine];
+  if (!drawn)
+    drawn =
+        std::make_shared<const std::vector<std::vector<double>>>(noise_misfits_m2(*this, kNoiseDraws, other_engine));
+  return *drawn;
 }
 
 }  // namespace umbsim::gap

@@ -21,6 +21,8 @@ TrackMisfit aligned_misfit(const Model& model, std::size_t run, const std::vecto
 /// Mean square position error of simulated tracks against the recorded ones, start poses aligned, m^2.
 double mean_square_error_m2(const Model& model, const std::vector<std::vector<Pose2>>& tracks);
 
+constexpr int kNoiseDraws = 200;
+
 /// Mean square position errors that noise alone makes where the prediction is right: heading and distance that walk,
 /// wheels whose radii differ from run to run, the tracker. Drawn from the noise model; outer index: run, m^2.
 /// `other_engine`: with what engines differ by (Scatter), alike in all runs of a draw.

@@ -110,6 +110,7 @@ Model Model::unsure_of(const Fit& fit) const {
 
 Model Model::unsure_of(const Fit& fit, const ErrorsOf& errors) const {
   Model model = *this;
+  model.noise_m2_ = {};
   const NominalReplay moved = gap::beside(*campaign_, fit.predicted.tracks);
   Unsure unsure(fit.hypotheses.size(), grouped(recording().runs, nominal_.origin), campaign_->parts.size());
   std::vector<Predicted> alone;
