@@ -64,6 +64,10 @@ bool takes_more_than_it_leaves(const Closure& closure) {
   return closure.known && closure.together().mm > closure.after_mm;
 }
 
+bool is_unknown(const Diagnosis& d) { return d.causes.front().name == "unknown"; }
+
+bool names_what_foretells(const Diagnosis& d) { return !is_unknown(d) && takes_more_than_it_leaves(d.closure); }
+
 // Nothing, or what counts show.
 bool names_no_pose(const Diagnosis& d) {
   return !d.detected || std::all_of(d.explanation.hypotheses.begin(), d.explanation.hypotheses.end(),
@@ -73,7 +77,7 @@ bool names_no_pose(const Diagnosis& d) {
 }  // namespace
 
 // Differences of engines may be all that is there, and they take what mends them from beside a cause. They are no
-// excuse for what a cause leaves: that stays unknown.
+// excuse for what a cause leaves, but where it takes more off held-out runs; nor do they hide what does.
 Diagnosis diagnose(Model& model, const std::set<std::string>& excluded, const Thresholds& t,
                    const ProgressCallback& progress) {
   const Fit none = model.none();
@@ -90,8 +94,8 @@ Diagnosis diagnose(Model& model, const std::set<std::string>& excluded, const Th
   };
   Diagnosis again = diagnosed(another, excluded, t, progress_again, none.log_evidence);
   const bool hidden = names_no_pose(again) && again.before_mm <= most_hidden_mm(another);
-  const bool excused = hidden || (again.causes.front().name != "unknown" && takes_more_than_it_leaves(again.closure));
-  if (first.not_fitted || (cause.name == "unknown" && !excused)) {
+  const bool excused = hidden || names_what_foretells(again);
+  if (first.not_fitted || (is_unknown(first) && !excused) || (is_unknown(again) && names_what_foretells(first))) {
     first.simulated_s = again.simulated_s;
     return first;
   }
