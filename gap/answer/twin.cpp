@@ -38,16 +38,16 @@ void add_nothing(Closure& closure) {
 }
 
 // What an explanation leaves may be an error of a tracker's whose frame and clock are free, or what contacts do in
-// another engine. A place or a moment mends a part of any misfit: what it takes away is not counted.
+// another engine. Beside the tracker a place or a moment mends a part of any misfit: what it takes away is not counted.
 bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure) {
   if (!closure.known || model.same_engine(fit)) return false;
-  if (!fit.is_local() && closure.after_mm <= closure.most_noise_mm) return true;
-  if (!model.tracker_is_free()) return false;
+  const bool within_noise = closure.after_mm <= closure.most_noise_mm;
   double worth_mm = closure.together().mm;
+  if (!model.tracker_is_free()) return within_noise && worth_mm > closure.after_mm;
   for (std::size_t i = 0; i < fit.hypotheses.size(); ++i) {
     if (fit.hypotheses[i].search_cost > 0) worth_mm -= std::max(0.0, closure.worth[i].mm);
   }
-  return worth_mm > closure.after_mm;
+  return worth_mm > closure.after_mm || (within_noise && !fit.is_local());
 }
 
 bool takes_enough(const Model& model, const Fit& fit, const Closure& closure) {
