@@ -13,6 +13,7 @@ namespace umbsim::gap {
 namespace {
 
 constexpr double kAsGood = 1.001;      // held-out error of a combination, over that of something simpler
+constexpr double kNoMore = 2;          // mean squares that count as no more than noise, over those that noise makes
 constexpr double kLittle = 0.05;       // of what a combination explains: more than that no held-out runs outvote
 constexpr double kOverconfidence = 2;  // evidence is divided by this before it becomes probability
 constexpr double kEqual = 1;           // log evidence
@@ -96,8 +97,8 @@ double in_sample_mm(const Model& model, const Fit& fit) {
   return 1000 * std::sqrt(mean_square_error_m2(model, fit.predicted.tracks));
 }
 
-// Whether `other`, of fewer effects, predicts held-out runs better than `closure`.
-bool fewer_predict_as_well(const Model& model, const Closure& closure, const Fit& other) {
+// Whether `other`, of fewer effects, predicts held-out runs better than `closure` says.
+bool fewer_predict_better(const Model& model, const Closure& closure, const Fit& other) {
   return closure.after_mm > kAsGood * held_out_closure(model, other).after_mm;
 }
 
@@ -105,7 +106,7 @@ bool fewer_predict_as_well(const Model& model, const Closure& closure, const Fit
 // floor.
 bool leaves_nothing(const Model& model, const Fit& front, const Closure& closure, const Fit& other) {
   const auto nothing = [&](double other_mm, double front_mm) {
-    return std::pow(other_mm, 2) <= 2 * std::pow(closure.floor_mm, 2) &&
+    return std::pow(other_mm, 2) <= kNoMore * std::pow(closure.floor_mm, 2) &&
            front_mm > std::hypot(other_mm, closure.floor_mm);
   };
   return nothing(in_sample_mm(model, other), in_sample_mm(model, front)) &&
@@ -134,7 +135,7 @@ void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const 
     const Closure closure = held_out_closure(model, front);
     const bool gives_way = closure.known && std::any_of(others.begin(), others.end(), [&](const Fit* other) {
                              return other->hypotheses.size() < front.hypotheses.size()
-                                        ? fewer_predict_as_well(model, closure, *other)
+                                        ? fewer_predict_better(model, closure, *other)
                                         : leaves_nothing(model, front, closure, *other);
                            });
     if (!gives_way) return;

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -17,16 +16,8 @@ using testing::effect;
 using testing::Subject;
 
 Cause cause_of(const Model& model, const std::vector<std::string>& effects, double score) {
-  std::vector<Hypothesis> chosen;
-  for (const Hypothesis& h : plain_hypotheses(0.02, 2000)) {
-    const auto same = [&](const Hypothesis& g) { return g.effect == h.effect; };
-    const bool wanted = std::find(effects.begin(), effects.end(), h.effect) != effects.end();
-    if (wanted && std::none_of(chosen.begin(), chosen.end(), same)) chosen.push_back(h);
-  }
-  EXPECT_EQ(chosen.size(), effects.size());
-  Fit fit = model.fit(chosen);
-  const std::string name = fit.name();
-  return {name, std::move(fit), score, 0};
+  const Fit fit = testing::fit_of(model, effects);
+  return {fit.name(), fit, score, 0};
 }
 
 // A wheelbase that is wrong, and what evidence might take for it where engines may differ in turns.

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>
@@ -32,5 +35,17 @@ struct Subject {
   gap::Campaign campaign;
   gap::Model model;
 };
+
+/// The fit of the first hypothesis of each of these effects, as for 2000 ticks at 50 Hz.
+inline gap::Fit fit_of(const gap::Model& model, const std::vector<std::string>& effects) {
+  std::vector<gap::Hypothesis> chosen;
+  const std::vector<gap::Hypothesis> all = gap::plain_hypotheses(0.02, 2000);
+  for (const std::string& e : effects) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const gap::Hypothesis& h) { return h.effect == e; });
+    if (found != all.end()) chosen.push_back(*found);
+  }
+  EXPECT_EQ(chosen.size(), effects.size());
+  return model.fit(chosen);
+}
 
 }  // namespace umbsim::testing

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "gap/evidence/signature_shares.h"
@@ -17,6 +16,7 @@ namespace umbsim::gap {
 namespace {
 
 using testing::effect;
+using testing::fit_of;
 using testing::Subject;
 
 // Log density that is lost where the robot moves under other effects than those of the fit.
@@ -55,17 +55,6 @@ TEST(UnsureModel, ForgivesWhatTheEffectsOfAFitMayDoOtherwise) {
   EXPECT_LT(unsure_toe, 0.2 * toe);
   EXPECT_GT(base, 100);
   EXPECT_GT(unsure_base, 0.3 * base);
-}
-
-Fit fit_of(const Model& model, const std::vector<std::string>& effects) {
-  std::vector<Hypothesis> chosen;
-  for (const std::string& e : effects) {
-    const std::vector<Hypothesis> all = plain_hypotheses(0.02, 2000);
-    const auto found = std::find_if(all.begin(), all.end(), [&](const Hypothesis& h) { return h.effect == e; });
-    if (found != all.end()) chosen.push_back(*found);
-  }
-  EXPECT_EQ(chosen.size(), effects.size());
-  return model.fit(chosen);
 }
 
 // What an effect may do otherwise excuses what is added to it, and no explanation that does without it.

@@ -184,7 +184,7 @@ function setup(section: HTMLElement, id: string, title: string, player: Player):
   const start = () => {
     near.disconnect();
     window.removeEventListener("beforeprint", start);
-    if (!replay) begin();
+    begin();
   };
   window.addEventListener("beforeprint", start);
   near.observe(section);
