@@ -51,9 +51,10 @@ struct DiagnoseArguments {
 
 // The scenario with the diagnosed effects added; each effect once. Wheels that scrub need the floor that they scrub on.
 Scenario twin(Scenario scenario, const Replay& replay, const gap::Diagnosis& d) {
-  if (!d.twin_is_nominal()) {
+  const gap::Fit& fit = d.driven_twin();
+  if (!fit.hypotheses.empty()) {
     std::vector<Effect> once;
-    for (const Effect& e : combined(scenario.effects, d.twin.driven_at(d.twin.p))) {
+    for (const Effect& e : combined(scenario.effects, fit.driven_at(fit.p))) {
       const auto there =
           std::find_if(once.begin(), once.end(), [&](const Effect& other) { return other.info == e.info; });
       if (there == once.end())

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,13 @@ struct Remainder {
   bool in_catalogue = false;  ///< that effect would take half of what errors of no particular cause could
 };
 
+/// A twin with radii or a wheelbase that are no cause, and foretell what the causes leave (answer/effective_twin.h).
+struct EffectiveTwin {
+  std::vector<std::string> dimensions;  ///< of them
+  Fit fit;                              ///< of the causes that it holds, if any, and the dimensions
+  Closure closure;
+};
+
 struct Diagnosis {
   bool detected = false;
   double p_value = 1;
@@ -82,9 +90,12 @@ struct Diagnosis {
   LeftOver left_over;  ///< by what explains best
   Fit explanation;     ///< what explains best, whether or not it leads; none where there is no gap
   Fit twin;  ///< of its effects, those that foretell held-out runs; none where the twin is the scenario as it was
-  Closure closure;  ///< of the twin
+  Closure closure;  ///< of these effects
   Remainder remainder;
+  std::optional<EffectiveTwin> effective;  ///< what is driven in the twin's place
   bool twin_is_nominal() const { return twin.hypotheses.empty(); }
+  const Fit& driven_twin() const { return effective ? effective->fit : twin; }
+  const Closure& twin_closure() const { return effective ? effective->closure : closure; }
   NoiseModel noise;  ///< as estimated from the runs
   double noise_floor_mm = 0;
   double before_mm = 0;             ///< root mean square position error of the scenario as it was

@@ -104,6 +104,12 @@ std::vector<ParameterEstimate> parameter_estimates(const Cause& cause, double ov
 
 namespace {
 
+Json parameter_json(const ParameterEstimate& e) {
+  Json json{{"value", e.value}, {"ci95", {e.ci95[0], e.ci95[1]}}, {"unit", e.unit}};
+  if (const std::string text = shown_text(e); !text.empty()) json["text"] = text;
+  return json;
+}
+
 Json worth_json(const Worth& w) { return {{"position_mm", number(w.mm)}, {"heading_deg", number(w.deg)}}; }
 
 // Of the cause that the twin holds, where runs were held out: together, and each of several effects beside the others.
@@ -115,6 +121,17 @@ Json worth_of(const Cause& cause, const Diagnosis& d) {
   for (std::size_t i = 0; i < d.closure.worth.size(); ++i)
     json["effects"][twin.hypotheses[i].effect] = worth_json(d.closure.worth[i]);
   return json;
+}
+
+// Dimensions that are no cause and stand in the twin for what the causes leave, and what these do without them.
+Json effective_json(const Diagnosis& d) {
+  if (!d.effective) return nullptr;
+  Json dimensions = Json::object();
+  for (const ParameterEstimate& e : effective_dimensions(d)) dimensions[e.effect][e.parameter] = parameter_json(e);
+  return {{"dimensions", dimensions},
+          {"beside_causes", d.effective->fit.hypotheses.size() > d.effective->dimensions.size()},
+          {"held_out_fraction_without", number(d.closure.fraction)},
+          {"after_mm_without", d.closure.after_mm}};
 }
 
 // What is found that shows in commands or counts, and moves no pose of held-out runs beyond the noise.
@@ -132,6 +149,16 @@ Json remarks_of(const Diagnosis& d) {
 }
 
 }  // namespace
+
+std::vector<ParameterEstimate> effective_dimensions(const Diagnosis& d) {
+  std::vector<ParameterEstimate> found;
+  if (!d.effective) return found;
+  const auto& names = d.effective->dimensions;
+  for (const ParameterEstimate& e : parameter_estimates(d.effective->fit, d.overdispersion)) {
+    if (std::find(names.begin(), names.end(), e.effect) != names.end()) found.push_back(e);
+  }
+  return found;
+}
 
 FoundParameter found(const ParameterEstimate& e) { return {e.parameter, e.value, e.ci95[0], e.ci95[1]}; }
 
@@ -167,9 +194,7 @@ Json diagnosis_json(const Diagnosis& d) {
     } else {
       for (const Hypothesis& f : c.fit.hypotheses) effects[f.effect] = Json::object();
       for (const ParameterEstimate& e : parameter_estimates(c, d.overdispersion)) {
-        Json& parameter = effects[e.effect][e.parameter];
-        parameter = {{"value", e.value}, {"ci95", {e.ci95[0], e.ci95[1]}}, {"unit", e.unit}};
-        if (const std::string text = shown_text(e); !text.empty()) parameter["text"] = text;
+        effects[e.effect][e.parameter] = parameter_json(e);
       }
       for (const Effect& e : c.fit.effects()) {
         if (e.info->one_run && effects.contains(e.info->name)) effects[e.info->name]["run"] = e.values.run;
@@ -196,8 +221,7 @@ Json diagnosis_json(const Diagnosis& d) {
                          {"pattern", d.remainder.pattern},
                          {"in_catalogue", d.remainder.in_catalogue}};
   }
-  if (d.closure.known) {
-    const Closure& c = d.closure;
+  if (const Closure& c = d.twin_closure(); c.known) {
     json["closure"] = {{"held_out_fraction", number(c.fraction)},
                        {"ci95", {number(c.ci95[0]), number(c.ci95[1])}},
                        {"before_mm", c.before_mm},
@@ -205,7 +229,8 @@ Json diagnosis_json(const Diagnosis& d) {
                        {"noise_floor_mm", c.floor_mm},
                        {"before_deg", c.before_deg},
                        {"after_deg", c.after_deg},
-                       {"explainable_fraction", number(d.explainable_fraction)}};
+                       {"explainable_fraction", number(d.explainable_fraction)},
+                       {"effective", effective_json(d)}};
   } else {
     json["closure"] = {{"held_out_fraction", nullptr},
                        {"note", d.detected ? "the tracks show no gap that could be closed" : "no gap to close"}};

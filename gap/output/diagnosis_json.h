@@ -24,6 +24,9 @@ std::vector<ParameterEstimate> parameter_estimates(const Fit& fit, double overdi
 /// fit keeps neutral and a variant sets free is listed with its neutral value.
 std::vector<ParameterEstimate> parameter_estimates(const Cause& cause, double overdispersion);
 
+/// Of the radii and wheelbase that stand in the twin for what the causes leave.
+std::vector<ParameterEstimate> effective_dimensions(const Diagnosis& d);
+
 FoundParameter found(const ParameterEstimate& estimate);
 
 /// What a reader sees of it, on the terminal and on the page; empty where it stayed neutral.

@@ -74,7 +74,7 @@ std::string found_text(const Diagnosis& d, const std::vector<NextExperiment>& ne
     text += wrapped(fmt::format("Next: {} separates {}", n.run, fmt::join(n.separates, ", ")));
   if (d.unexplained && !d.left_over.description.empty()) text += wrapped("Left over: " + d.left_over.description);
   text += wrapped(remainder_text(d));
-  return d.closure.known ? text + closure_text(d.closure) : text;
+  return d.closure.known ? text + closure_text(d.twin_closure()) : text;
 }
 
 std::string nothing_text(const Diagnosis& d) {

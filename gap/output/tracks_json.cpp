@@ -60,7 +60,7 @@ Json parts(const Diagnosis& d, const std::string& run, std::size_t stride) {
 }  // namespace
 
 Json tracks_json(const Model& model, const Diagnosis& d) {
-  const bool twin = !d.twin_is_nominal();
+  const Fit& twin = d.driven_twin();
   Json runs = Json::array();
   for (std::size_t r = 0; r < model.recording().runs.size(); ++r) {
     const RecordedRun& run = model.recording().runs[r];
@@ -78,8 +78,8 @@ Json tracks_json(const Model& model, const Diagnosis& d) {
     for (std::size_t k = 0; k < run.truth.size(); ++k) {
       if (k % stride == 0 || k + 1 == run.truth.size()) item["time_s"].push_back(rounded(run.truth[k].time_s));
     }
-    if (twin) {
-      const std::vector<Pose2> after = begun_right(model, r, d.twin.predicted.tracks[r]);
+    if (!twin.hypotheses.empty()) {
+      const std::vector<Pose2> after = begun_right(model, r, twin.predicted.tracks[r]);
       item["after"] = thinned(after, stride);
       item["end"]["after"] = end_error(run, after);
     }

@@ -179,6 +179,21 @@ std::string worth(const Diagnosis& d) {
                             left(c.before_mm, c.floor_mm));
 }
 
+// Radii and a wheelbase that are no cause and foretell what the causes leave.
+std::string effective(const Diagnosis& d) {
+  if (!d.effective) return "";
+  Texts dimensions;
+  for (const ParameterEstimate& e : effective_dimensions(d))
+    dimensions.push_back(found_sentence(find_effect(e.effect), {found(e)}));
+  const auto& [names, fit, closure] = *d.effective;
+  const bool instead = fit.hypotheses.size() == names.size() && is_effect(d.causes.front().name);
+  return fmt::format(
+      " In the twin, {}{}. That is no cause, but what a calibration would find: with it {} of {} remain on runs that "
+      "were held out.",
+      listed(dimensions, "and"), instead ? ", in place of what is named" : "",
+      left(closure.before_mm, closure.after_mm), left(closure.before_mm, closure.before_mm));
+}
+
 std::string ties_text(const Diagnosis& d, const std::vector<NextExperiment>& next) {
   Texts parts;
   for (const Doubt& doubt : doubts(d)) parts.push_back(doubt.own + " from " + listed(some_of(doubt.rivals), "or"));
@@ -240,10 +255,10 @@ std::string listed(const Texts& texts, const char* last) {
 
 std::string verdict(const Diagnosis& d, const std::vector<NextExperiment>& next) {
   if (!d.detected) return no_gap(d) + next_text(next);
-  if (!is_effect(d.causes.front().name)) return unknown(d) + next_text(next);
+  if (!is_effect(d.causes.front().name)) return unknown(d) + effective(d) + next_text(next);
   std::string text;
   for (const std::string& sentence : sentences(d)) text += sentence + " ";
-  return text + worth(d) + ties_text(d, next) + next_text(next);
+  return text + worth(d) + effective(d) + ties_text(d, next) + next_text(next);
 }
 
 }  // namespace umbsim::gap

@@ -183,6 +183,27 @@ TEST(Verdict, MissingClosureIsSaid) {
   expect_in(said(d), "takes nothing away on runs that were held out: the twin goes without.");
 }
 
+// Dimensions that foretell what a cause leaves belong to the twin, on the page and in the file.
+TEST(Verdict, EffectiveDimensionsAreNoCause) {
+  Diagnosis d = found({cause({hypothesis_of("wheel_radius_difference", "right over left")}, {0.002}, 0.1)});
+  d.closure.before_mm = 45;
+  d.closure.after_mm = 40;
+  d.effective = EffectiveTwin{{"wheelbase"}, wheelbase(0.013).fit, d.closure};
+  d.effective->closure.fraction = 0.98;
+  d.effective->closure.after_mm = 6;
+  expect_in(said(d), "That takes away 5 of 45 mm on runs that were held out.");
+  expect_in(said(d), "In the twin, the wheelbase is 1.3");
+  expect_in(said(d), "larger than believed, in place of what is named. That is no cause");
+  expect_in(said(d), "with it 6 mm of 45 mm remain");
+  const nlohmann::json json = diagnosis_json(d);
+  EXPECT_EQ(json["closure"]["held_out_fraction"], 0.98);
+  const auto& effective = json["closure"]["effective"];
+  EXPECT_EQ(effective["after_mm_without"], 40);
+  EXPECT_FALSE(effective["beside_causes"]);
+  EXPECT_EQ(effective["dimensions"]["wheelbase"]["relative"]["value"], 0.013);
+  EXPECT_FALSE(json["causes"][0]["effects"].contains("wheelbase"));
+}
+
 // Everything of the catalogue at once, with the longest names.
 TEST(DiagnosisText, FitsATerminal) {
   std::vector<Hypothesis> longest{hypothesis_of("wheel_radius_difference", "right over left"),

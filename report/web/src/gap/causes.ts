@@ -63,6 +63,12 @@ export function tiles(d: Figures): Tile[] {
   return all.filter((t): t is Tile => !!t);
 }
 
+function twinHolds(effective: Figures | null): string {
+  if (!effective) return "with the effect added";
+  const dimensions = Object.keys(effective.dimensions).map(words).join(" and ");
+  return effective.beside_causes ? `with an effective ${dimensions}, too` : `with an effective ${dimensions} instead`;
+}
+
 export function closure(d: Figures): Html {
   const c = d.closure ?? {};
   if (!isNumber(c.held_out_fraction)) return html`<p>${d.gap.detected ? "Nothing could be held out, or no named effect was found." : "There is no gap to close."}</p>`;
@@ -72,7 +78,9 @@ export function closure(d: Figures): Html {
   return html`${table({
     caption: "Each condition predicted with numbers fitted on the others: position along the run (r.m.s.), heading at its end", keepEmpty: true, stack: true,
     head: ["", "", "position", "heading"], rows: [
-      row("scenario as it was", c.before_mm, "rest", c.before_deg), row("with the effect added", c.after_mm, "tied", c.after_deg),
+      row("scenario as it was", c.before_mm, "rest", c.before_deg),
+      ...(c.effective ? [row("with the causes added", c.effective.after_mm_without, "tied")] : []),
+      row(twinHolds(c.effective), c.after_mm, "tied", c.after_deg),
       row("noise floor", c.noise_floor_mm, "floor")]})}
     ${conditions.length ? table({caption: "Each held-out condition", stack: true, head: ["condition", "before", "after"],
       rows: conditions.map((x) => [x.name ?? x.condition, millimetres(x.before_mm), millimetres(x.after_mm)])}) : ""}`;
