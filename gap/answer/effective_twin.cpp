@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gap/answer/closure.h"
+#include "gap/evidence/track_misfit.h"
 
 namespace umbsim::gap {
 namespace {
@@ -28,18 +29,21 @@ bool pays(const Closure& from, const Closure& to) {
   return std::pow(from.after_mm, 2) - std::pow(to.after_mm, 2) >= std::pow(least_mm, 2);
 }
 
-// The dimension that leaves least of held-out runs, as long as it pays.
+// Adds the dimension with which the runs stray least, as long as it pays on those that are held out.
 bool add_best_dimension(const Model& model, const Screen& screen, EffectiveTwin& twin) {
-  std::optional<EffectiveTwin> best;
+  std::optional<Fit> best;
+  const auto error_m2 = [&](const Fit& fit) { return mean_square_error_m2(model, fit.predicted.tracks); };
   for (const Hypothesis& h : screen.hypotheses()) {
     if (!is_dimension(h.effect) || holds(twin.fit, h.effect)) continue;
-    EffectiveTwin more{twin.dimensions, with(model, screen, twin.fit, h), {}};
-    more.dimensions.push_back(h.effect);
-    more.closure = held_out_closure(model, more.fit);
-    if (more.closure.known && (!best || more.closure.after_mm < best->closure.after_mm)) best = std::move(more);
+    Fit fit = with(model, screen, twin.fit, h);
+    if (!best || error_m2(fit) < error_m2(*best)) best = std::move(fit);
   }
-  if (!best || !pays(twin.closure, best->closure)) return false;
-  twin = std::move(*best);
+  if (!best) return false;
+  const Closure closure = held_out_closure(model, *best);
+  if (!closure.known || !pays(twin.closure, closure)) return false;
+  twin.dimensions.push_back(best->hypotheses.back().effect);
+  twin.fit = std::move(*best);
+  twin.closure = closure;
   return true;
 }
 

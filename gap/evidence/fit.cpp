@@ -1,11 +1,6 @@
 // Fits, and fitting the numbers of effects in the simulator.
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <set>
 #include <stdexcept>
 
 #include "gap/evidence/model.h"
@@ -14,47 +9,31 @@ namespace umbsim::gap {
 
 namespace {
 
-// Effects of the hypotheses that are chosen by their index.
-std::vector<Effect> effects_where(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& numbers,
-                                  const std::function<bool(std::size_t)>& chosen) {
-  std::vector<Effect> all;
-  Eigen::Index at = 0;
-  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-    const Eigen::Index n = Eigen::Index(hypotheses[i].parameters.size());
-    if (chosen(i)) {
-      for (Effect& e : effects_of(hypotheses[i], numbers.segment(at, n))) all.push_back(std::move(e));
-    }
-    at += n;
-  }
-  return all;
-}
+constexpr int kRoundsOnFewer = 3;
 
 }  // namespace
 
-std::vector<Effect> Fit::effects() const {
-  return effects_where(hypotheses, p, [](std::size_t) { return true; });
-}
+// One descent to the best numbers: what is known of the derivatives, and of the step to come.
+struct Model::Descent {
+  std::optional<Linearisation> known;
+  bool learned = false;  // from steps, since they were last taken at a point
+  double density = -1e300;
+  double wanted = 0;  // the next step in standard deviations, without bounds
+  double change = 0;  // and within them
 
-std::vector<Effect> Fit::driven_at(const Eigen::VectorXd& numbers, std::size_t without) const {
-  return effects_where(hypotheses, numbers,
-                       [&](std::size_t i) { return i != without && !hypotheses[i].shape_unknown; });
-}
-
-std::string Fit::name() const {
-  std::set<std::string> names;
-  for (const Hypothesis& f : hypotheses) names.insert(f.effect);
-  if (names.empty()) return "none";
-  return fmt::format("{}", fmt::join(names, "+"));
-}
-
-bool Fit::is_kinematic() const {
-  return std::all_of(hypotheses.begin(), hypotheses.end(),
-                     [](const Hypothesis& f) { return gap::is_kinematic(f.effect); });
-}
-
-bool Fit::is_local() const {
-  return std::any_of(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& f) { return f.search_cost > 0; });
-}
+  // Where the linear model has its optimum, within the bounds.
+  Eigen::VectorXd next_numbers(const Fit& fit, const Eigen::VectorXd& optimum, const std::vector<FreeParameter>& free) {
+    Eigen::VectorXd next = optimum;
+    change = wanted = 0;
+    for (Eigen::Index i = 0; i < next.size(); ++i) {
+      const double sd_left = std::sqrt(fit.covariance(i, i) + 1e-300);
+      wanted = std::max(wanted, std::abs(next[i] - fit.p[i]) / sd_left);
+      next[i] = std::clamp(next[i], free[std::size_t(i)].min, free[std::size_t(i)].max);
+      change = std::max(change, std::abs(next[i] - fit.p[i]) / sd_left);
+    }
+    return next;
+  }
+};
 
 // Derivatives at the fit's numbers, by a step in every direction: the other way where the robot cannot be driven so.
 Linearisation Model::linearised(const Fit& fit) const {
@@ -89,27 +68,11 @@ Linearisation Model::linearised(const Fit& fit) const {
 
 namespace {
 
-// One descent: numbers, the best of them so far, and what is known of the derivatives.
-struct Descent {
-  std::optional<Linearisation> known;
-  bool learned = false;  // from steps, since they were last taken at a point
-  double density = -1e300;
-  double wanted = 0;  // the next step in standard deviations, without bounds
-  double change = 0;  // and within them
-};
-
-// Where the linear model has its optimum, within the bounds.
-Eigen::VectorXd next_numbers(const Fit& fit, const Eigen::VectorXd& optimum, const std::vector<FreeParameter>& free,
-                             Descent& d) {
-  Eigen::VectorXd next = optimum;
-  d.change = d.wanted = 0;
-  for (Eigen::Index i = 0; i < next.size(); ++i) {
-    const double sd_left = std::sqrt(fit.covariance(i, i) + 1e-300);
-    d.wanted = std::max(d.wanted, std::abs(next[i] - fit.p[i]) / sd_left);
-    next[i] = std::clamp(next[i], free[std::size_t(i)].min, free[std::size_t(i)].max);
-    d.change = std::max(d.change, std::abs(next[i] - fit.p[i]) / sd_left);
-  }
-  return next;
+Eigen::VectorXd start_of(const std::vector<Hypothesis>& hypotheses) {
+  const std::vector<FreeParameter> free = free_parameters(hypotheses);
+  Eigen::VectorXd start(Eigen::Index(free.size()));
+  for (Eigen::Index i = 0; i < start.size(); ++i) start[i] = free[std::size_t(i)].start;
+  return start;
 }
 
 // What does not act in proportion takes longer, most of all with the softness of the tyres.
@@ -120,6 +83,22 @@ int rounds_of(const std::vector<Hypothesis>& hypotheses, int rounds) {
 }
 
 }  // namespace
+
+void Model::take_derivatives(const Fit& at, Descent& d) const {
+  d.known = linearised(at);
+  d.learned = false;
+}
+
+Eigen::VectorXd Model::solve(Fit& at, const std::vector<std::size_t>& runs, const Descent& d) const {
+  const Eigen::Index m = at.p.size();
+  at.columns = d.known->columns;
+  at.grams = grams(residuals(at.predicted), at.columns);
+  const Evidence e =
+      evidence(at.grams, runs, first_columns(nuisances() + m), with_more(nuisance_sds(), prior_sd_of(at.hypotheses)),
+               after_nuisances(nuisances(), at.p));
+  at.covariance = e.covariance.bottomRightCorner(m, m);
+  return e.mean.tail(m);
+}
 
 Fit Model::without(const Fit& whole, std::size_t out) const {
   std::vector<Hypothesis> hypotheses;
@@ -137,41 +116,23 @@ Fit Model::without(const Fit& whole, std::size_t out) const {
 }
 
 // Gauss-Newton on the density, with steps back where the simulator bends. Derivatives are taken where the descent
-// begins, if none are given, and where it ends, if steps did not go where they pointed.
-Fit Model::fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& start, int rounds,
-               const std::vector<std::size_t>& some, const std::optional<Linearisation>& given) const {
-  const std::vector<std::size_t> runs = some.empty() ? all_runs() : some;
+// begins, if none are given, and, if `sure`, where it ends, if steps did not go where they pointed.
+Fit Model::descend(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& start, int rounds,
+                   const std::vector<std::size_t>& runs, Descent& d, bool sure) const {
   const std::vector<FreeParameter> free = free_parameters(hypotheses);
-  const Eigen::Index m = Eigen::Index(free.size());
   const Eigen::VectorXd s = prior_sd_of(hypotheses);
-  const std::vector<Eigen::VectorXd> sds = with_more(nuisance_sds(), s);
   const bool from_zero =
       std::all_of(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& f) { return f.from_zero; });
   Fit fit;
   fit.hypotheses = hypotheses;
-  fit.p.resize(m);
-  for (Eigen::Index i = 0; i < m; ++i) fit.p[i] = start.size() == m ? start[i] : free[std::size_t(i)].start;
+  fit.p = start.size() == s.size() ? start : start_of(hypotheses);
   Fit best;
-  Descent d;
-  d.known = given;
-  const auto solved = [&](Fit& at) {
-    at.columns = d.known->columns;
-    at.grams = grams(residuals(at.predicted), at.columns);
-    const Evidence e =
-        evidence(at.grams, runs, first_columns(nuisances() + m), sds, after_nuisances(nuisances(), at.p));
-    at.covariance = e.covariance.bottomRightCorner(m, m);
-    return next_numbers(at, e.mean.tail(m), free, d);
-  };
-  const auto taken_here = [&](Fit& at) {
-    d.known = linearised(at);
-    d.learned = false;
-  };
   for (int round = 0; round < rounds_of(hypotheses, rounds); ++round) {
     try {
       fit.predicted = predict({fit.effects()}).front();
       const std::vector<Eigen::VectorXd> there = residuals(fit.predicted);
       if (!d.known || (round == 0 && !d.known->foretold(fit.p, there))) {
-        taken_here(fit);
+        take_derivatives(fit, d);
       } else if (!d.known->foretold(fit.p, there)) {
         d.known->learn(fit.p, there, s);
         d.learned = true;
@@ -184,7 +145,7 @@ Fit Model::fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd&
       fit.p = (fit.p + best.p) / 2;
       continue;
     }
-    Eigen::VectorXd next = solved(fit);
+    Eigen::VectorXd next = d.next_numbers(fit, solve(fit, runs, d), free);
     // Density with the effects held at p: the honest objective of the descent.
     const Evidence held = evidence(fit.grams, runs, first_columns(nuisances()), nuisance_sds());
     const double density = held.log_density - 0.5 * fit.p.cwiseQuotient(s).squaredNorm();
@@ -200,9 +161,9 @@ Fit Model::fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd&
     }
     bool ends = density < d.density + 0.05 || d.change < 0.1;
     d.density = density;
-    if (ends && d.learned) {
-      taken_here(fit);
-      next = solved(fit);
+    if (ends && d.learned && sure) {
+      take_derivatives(fit, d);
+      next = d.next_numbers(fit, solve(fit, runs, d), free);
       ends = d.change < 0.1;
     }
     best = fit;
@@ -212,13 +173,44 @@ Fit Model::fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd&
     if (ends) break;
     fit.p = next;
   }
+  return best;
+}
+
+Fit Model::fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& start, int rounds,
+               const std::vector<std::size_t>& some, const std::optional<Linearisation>& known) const {
+  const std::vector<std::size_t> runs = some.empty() ? all_runs() : some;
+  Descent d{known};
+  Fit best = descend(hypotheses, start, rounds, runs, d, true);
   if (d.learned) {
-    taken_here(best);
-    solved(best);
+    take_derivatives(best, d);
+    solve(best, runs, d);
   }
   best.log_chance = log_chance(best.effects());
   score(best);
   return best;
+}
+
+Eigen::VectorXd Model::numbers_on(const Fit& fit, const std::vector<std::size_t>& runs) const {
+  const Eigen::VectorXd shift = after_nuisances(nuisances(), fit.p);
+  const Eigen::VectorXd s = prior_sd_of(fit.hypotheses);
+  const Evidence e = evidence(fit.grams, runs, first_columns(shift.size()), with_more(nuisance_sds(), s), shift);
+  Fit other = fit;
+  other.p = e.mean.tail(fit.p.size());
+  Eigen::Index i = 0;
+  bool all_told = true;
+  for (const FreeParameter& p : free_parameters(fit.hypotheses)) {
+    // What happened in one run alone no other run can tell: the number stays as it is.
+    const double sd_left = std::sqrt(e.covariance(nuisances() + i, nuisances() + i));
+    const bool told = sd_left < 0.8 * p.prior_sd;
+    if (!told) other.p[i] = fit.p[i];
+    all_told = all_told && told;
+    other.p[i] = std::clamp(other.p[i], p.min, p.max);
+    ++i;
+  }
+  if (fit.linear || !all_told) return other.p;
+  // Where the simulator bends the derivatives may point off the hill: the descent steps back then.
+  Descent d{Linearisation{fit.p, residuals(fit.predicted), fit.columns}};
+  return descend(fit.hypotheses, fit.p, kRoundsOnFewer, runs, d, false).p;
 }
 
 }  // namespace umbsim::gap

@@ -53,7 +53,6 @@ struct Fit {
   std::size_t prior = 0;                 ///< of the nuisances, under which the data are likelier (Nuisances)
 
   double size = 0;  ///< root mean square displacement that the last hypothesis adds to the tracks, over the noise floor
-
   double seen = 0;  ///< root mean square of the same in the whitened tracks: what makes no way, but shakes, shows here
 
   std::vector<Effect> effects() const;
@@ -73,7 +72,7 @@ struct Linearisation {
   /// Whether the residuals at `to` are where the derivatives put them, but for a small share of the step or of the
   /// noise.
   bool foretold(const Eigen::VectorXd& to, const std::vector<Eigen::VectorXd>& there) const;
-  /// Goes to `to`, and makes the derivatives along the step what it showed.
+  /// Goes to `to`; the derivatives along the step become what it showed.
   void learn(const Eigen::VectorXd& to, const std::vector<Eigen::VectorXd>& there, const Eigen::VectorXd& scale);
 };
 
@@ -145,7 +144,6 @@ class Model {
   /// Mean square position errors that noise alone makes (noise_misfits_m2), drawn once: kNoiseDraws of every run, m^2.
   const std::vector<std::vector<double>>& noise_m2(bool other_engine = false) const;
 
-  /// One run under effects.
   std::vector<Pose2> simulate_run(std::size_t run, const std::vector<Effect>& effects) const {
     return simulator_.ticks(run, effects, roughness_under(effects));
   }
@@ -153,7 +151,6 @@ class Model {
   /// Differences between two predictions over a step, per run: whitened, counts against commands below.
   std::vector<Eigen::MatrixXd> columns(const Predicted& at, const std::vector<Predicted>& stepped,
                                        const std::vector<double>& steps) const;
-
   /// Whitened residual of every run; empty where the run was not driven.
   std::vector<Eigen::VectorXd> residuals(const Predicted& predicted) const;
 
@@ -174,7 +171,6 @@ class Model {
 
   /// No effect at all.
   Fit none() const;
-
   /// Another model's fit as this model sees it: the same numbers, with the nuisances as they then are.
   Fit held(Fit fit) const;
 
@@ -206,13 +202,15 @@ class Model {
   Fit without(const Fit& fit, std::size_t hypothesis) const;
 
   /// The numbers of a fit's effects taken from a subset of the runs: by the fit's derivatives, and where the simulator
-  /// bends by fitting again from there.
+  /// bends by going on from there.
   Eigen::VectorXd numbers_on(const Fit& fit, const std::vector<std::size_t>& runs) const;
 
   /// Log evidence over the runs of a subset, of a fit's linearised model.
   double log_evidence(const Fit& fit, const std::vector<std::size_t>& runs) const;
 
  private:
+  struct Descent;  // fit.cpp
+
   // Of a run, and with five of the recording, which stand with the first run.
   static constexpr int kCountRows = CountsSd::RowsAtCompileTime;
   static constexpr int kFeatureRows = kCountRows + int(std::tuple_size<CommandFeatures>::value);
@@ -223,6 +221,10 @@ class Model {
   CountsSd counts_sd(std::size_t run, bool alone) const;
   Eigen::VectorXd feature_rows(std::size_t run, const Predicted& a, const Predicted& b, bool alone) const;
   Linearisation linearised(const Fit& fit) const;
+  void take_derivatives(const Fit& at, Descent& d) const;
+  Eigen::VectorXd solve(Fit& at, const std::vector<std::size_t>& runs, const Descent& d) const;
+  Fit descend(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& start, int rounds,
+              const std::vector<std::size_t>& runs, Descent& d, bool sure) const;
   void score(Fit& fit) const;
 
   const Campaign* campaign_;

@@ -1,7 +1,11 @@
-// What a fit is worth: log evidence, over all runs or some; what counts of it on others.
+// What a fit is, and is worth: log evidence, over all runs or some.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <stdexcept>
 
@@ -11,9 +15,47 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr int kRoundsOnFewer = 2;
+// Effects of the hypotheses that are chosen by their index.
+std::vector<Effect> effects_where(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& numbers,
+                                  const std::function<bool(std::size_t)>& chosen) {
+  std::vector<Effect> all;
+  Eigen::Index at = 0;
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    const Eigen::Index n = Eigen::Index(hypotheses[i].parameters.size());
+    if (chosen(i)) {
+      for (Effect& e : effects_of(hypotheses[i], numbers.segment(at, n))) all.push_back(std::move(e));
+    }
+    at += n;
+  }
+  return all;
+}
 
 }  // namespace
+
+std::vector<Effect> Fit::effects() const {
+  return effects_where(hypotheses, p, [](std::size_t) { return true; });
+}
+
+std::vector<Effect> Fit::driven_at(const Eigen::VectorXd& numbers, std::size_t without) const {
+  return effects_where(hypotheses, numbers,
+                       [&](std::size_t i) { return i != without && !hypotheses[i].shape_unknown; });
+}
+
+std::string Fit::name() const {
+  std::set<std::string> names;
+  for (const Hypothesis& f : hypotheses) names.insert(f.effect);
+  if (names.empty()) return "none";
+  return fmt::format("{}", fmt::join(names, "+"));
+}
+
+bool Fit::is_kinematic() const {
+  return std::all_of(hypotheses.begin(), hypotheses.end(),
+                     [](const Hypothesis& f) { return gap::is_kinematic(f.effect); });
+}
+
+bool Fit::is_local() const {
+  return std::any_of(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& f) { return f.search_cost > 0; });
+}
 
 // Whatever else makes the noise, it is not less than what chance makes.
 double Model::log_chance(const std::vector<Effect>& effects) const {
@@ -52,36 +94,6 @@ double Model::log_evidence(const Fit& fit, const std::vector<std::size_t>& runs)
     ++i;
   }
   return log_density;
-}
-
-Eigen::VectorXd Model::numbers_on(const Fit& fit, const std::vector<std::size_t>& runs) const {
-  const Eigen::VectorXd shift = after_nuisances(nuisances(), fit.p);
-  const Eigen::VectorXd s = prior_sd_of(fit.hypotheses);
-  const Evidence e = evidence(fit.grams, runs, first_columns(shift.size()), with_more(nuisance_sds(), s), shift);
-  Fit other = fit;
-  other.p = e.mean.tail(fit.p.size());
-  Eigen::Index i = 0;
-  bool all_told = true;
-  for (const FreeParameter& p : free_parameters(fit.hypotheses)) {
-    // What happened in one run alone no other run can tell: the number stays as it is.
-    const double sd_left = std::sqrt(e.covariance(nuisances() + i, nuisances() + i));
-    const bool told = sd_left < 0.8 * p.prior_sd;
-    if (!told) other.p[i] = fit.p[i];
-    all_told = all_told && told;
-    other.p[i] = std::clamp(other.p[i], p.min, p.max);
-    ++i;
-  }
-  if (fit.linear || !all_told) return other.p;
-  // Where the simulator bends the derivatives may point off the hill: the better of both starts.
-  const auto density = [&](const Eigen::VectorXd& p) {
-    try {
-      return density_at(fit.hypotheses, p, runs);
-    } catch (const std::runtime_error&) {
-      return -1e300;  // it cannot be driven so
-    }
-  };
-  const bool astray = density(fit.p) > density(other.p);
-  return this->fit(fit.hypotheses, astray ? fit.p : other.p, kRoundsOnFewer, runs).p;
 }
 
 void Model::score(Fit& fit) const {
