@@ -10,46 +10,43 @@
 namespace umbsim::gap {
 namespace {
 
-bool holds(const Fit& fit, const std::string& effect) {
-  return std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(),
-                     [&](const Hypothesis& h) { return h.effect == effect; });
-}
+constexpr int kRoundsBeside = 4;  // the causes have been fitted
 
 Fit with(const Model& model, const Screen& screen, const Fit& fit, const Hypothesis& dimension) {
   std::vector<Hypothesis> hypotheses = fit.hypotheses;
   hypotheses.push_back(dimension);
   Eigen::VectorXd start(fit.p.size() + Eigen::Index(dimension.parameters.size()));
   start << fit.p, start_of(dimension);
-  return model.fit(hypotheses, start, 7, {}, screen.near(fit, dimension));
+  return model.fit(hypotheses, start, kRoundsBeside, {}, screen.near(fit, dimension));
 }
 
-// Whether one twin brings held-out runs nearer than another by as much as it leaves, and as noise makes (mean squares).
-bool pays(const Closure& from, const Closure& to) {
-  const double least_mm = std::max(to.floor_mm, to.after_mm);
-  return std::pow(from.after_mm, 2) - std::pow(to.after_mm, 2) >= std::pow(least_mm, 2);
+// Whether runs come nearer by as much as is left, and as noise makes (mean squares).
+bool pays(double from_mm, double to_mm, double floor_mm) {
+  return std::pow(from_mm, 2) - std::pow(to_mm, 2) >= std::pow(std::max(floor_mm, to_mm), 2);
 }
 
-// Adds the dimension with which the runs stray least, as long as it pays on those that are held out.
-bool add_best_dimension(const Model& model, const Screen& screen, EffectiveTwin& twin) {
-  std::optional<Fit> best;
-  const auto error_m2 = [&](const Fit& fit) { return mean_square_error_m2(model, fit.predicted.tracks); };
-  for (const Hypothesis& h : screen.hypotheses()) {
-    if (!is_dimension(h.effect) || holds(twin.fit, h.effect)) continue;
-    Fit fit = with(model, screen, twin.fit, h);
-    if (!best || error_m2(fit) < error_m2(*best)) best = std::move(fit);
+// Adds the first dimension, in the order of what they explain, that pays on the runs, and on those held out.
+bool add_dimension(const Model& model, const Screen& screen, EffectiveTwin& twin) {
+  std::vector<Screen::Candidate> dimensions =
+      screen.by_derivatives(twin.fit, [](const Hypothesis& h) { return is_dimension(h.effect); });
+  std::sort(dimensions.begin(), dimensions.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
+  for (const Screen::Candidate& dimension : dimensions) {
+    Fit fit = with(model, screen, twin.fit, dimension.hypothesis);
+    const double floor_mm = twin.closure.floor_mm;
+    if (!pays(in_sample_error_mm(model, twin.fit), in_sample_error_mm(model, fit), floor_mm)) continue;
+    const Closure closure = held_out_closure(model, fit);
+    if (!closure.known || !pays(twin.closure.after_mm, closure.after_mm, floor_mm)) continue;
+    twin.dimensions.push_back(dimension.hypothesis.effect);
+    twin.fit = std::move(fit);
+    twin.closure = closure;
+    return true;
   }
-  if (!best) return false;
-  const Closure closure = held_out_closure(model, *best);
-  if (!closure.known || !pays(twin.closure, closure)) return false;
-  twin.dimensions.push_back(best->hypotheses.back().effect);
-  twin.fit = std::move(*best);
-  twin.closure = closure;
-  return true;
+  return false;
 }
 
 EffectiveTwin calibrated(const Model& model, const Screen& screen, const Fit& fit, const Closure& closure) {
   EffectiveTwin twin{{}, fit, closure};
-  while (twin.closure.after_mm > closure.most_noise_mm && add_best_dimension(model, screen, twin)) {
+  while (twin.closure.after_mm > closure.most_noise_mm && add_dimension(model, screen, twin)) {
   }
   return twin;
 }
@@ -76,7 +73,7 @@ std::optional<EffectiveTwin> effective_twin(const Model& model, const Screen& sc
     Closure nothing = closure;
     nothing.after_mm = nothing.before_mm;
     EffectiveTwin alone = calibrated(model, screen, none, nothing);
-    if (pays(best.closure, alone.closure)) best = std::move(alone);
+    if (pays(best.closure.after_mm, alone.closure.after_mm, closure.floor_mm)) best = std::move(alone);
   }
   if (best.dimensions.empty()) return std::nullopt;
   return best;

@@ -143,7 +143,7 @@ void leave_the_ordinary_out(const Context& w, Fit& best, Diagnosis& d) {
 // gap then: they differ from engine to engine.
 bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
   if (w.model.taken_for_another_engines()) {
-    const double before_mm = 1000 * std::sqrt(mean_square_error_m2(w.model, w.none.predicted.tracks));
+    const double before_mm = in_sample_error_mm(w.model, w.none);
     if (before_mm > most_hidden_mm(w.model)) return false;
   } else if (w.model.same_engine(fit) || closure.before_mm == 0 || closure.before_mm > closure.most_noise_mm) {
     return false;

@@ -93,10 +93,6 @@ std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, con
 
 namespace {
 
-double in_sample_mm(const Model& model, const Fit& fit) {
-  return 1000 * std::sqrt(mean_square_error_m2(model, fit.predicted.tracks));
-}
-
 // Whether `other`, of fewer effects, predicts held-out runs better than `closure` says.
 bool fewer_predict_better(const Model& model, const Closure& closure, const Fit& other) {
   return closure.after_mm > kAsGood * held_out_closure(model, other).after_mm;
@@ -109,7 +105,7 @@ bool leaves_nothing(const Model& model, const Fit& front, const Closure& closure
     return std::pow(other_mm, 2) <= kNoMore * std::pow(closure.floor_mm, 2) &&
            front_mm > std::hypot(other_mm, closure.floor_mm);
   };
-  return nothing(in_sample_mm(model, other), in_sample_mm(model, front)) &&
+  return nothing(in_sample_error_mm(model, other), in_sample_error_mm(model, front)) &&
          nothing(held_out_closure(model, other).after_mm, closure.after_mm);
 }
 

@@ -86,7 +86,7 @@ void keep_what_foretells(const Model& model, Fit& twin, Closure& closure) {
 Remainder remainder_of(const Model& model, const Screen& screen, const Fit& none, const Diagnosis& d, double leftover) {
   Remainder rest;
   const Fit& twin = d.twin_is_nominal() ? none : d.twin;
-  rest.mm = d.closure.known ? d.closure.after_mm : 1000 * std::sqrt(mean_square_error_m2(model, twin.predicted.tracks));
+  rest.mm = d.closure.known ? d.closure.after_mm : in_sample_error_mm(model, twin);
   const bool gap = d.twin_is_nominal() || d.closure.before_mm > d.closure.most_noise_mm;
   rest.share = d.closure.known ? std::max(0.0, 1 - d.closure.fraction) : gap ? 1 : 0;
   const auto unfitted = [](const Hypothesis& f) { return f.shape_unknown; };

@@ -63,6 +63,10 @@ double mean_square_error_m2(const Model& model, const std::vector<std::vector<Po
   return sum / double(tracks.size());
 }
 
+double in_sample_error_mm(const Model& model, const Fit& fit) {
+  return 1000 * std::sqrt(mean_square_error_m2(model, fit.predicted.tracks));
+}
+
 std::vector<std::vector<double>> noise_misfits_m2(const Model& model, int draws, bool other_engine) {
   std::vector<Eigen::VectorXd> engines(std::size_t(draws), Eigen::VectorXd::Zero(model.nuisances()));
   RandomStream between(1, "difference of engines");

@@ -21,6 +21,9 @@ TrackMisfit aligned_misfit(const Model& model, std::size_t run, const std::vecto
 /// Mean square position error of simulated tracks against the recorded ones, start poses aligned, m^2.
 double mean_square_error_m2(const Model& model, const std::vector<std::vector<Pose2>>& tracks);
 
+/// The root of it for a fit's tracks, on the runs that it was fitted on, mm.
+double in_sample_error_mm(const Model& model, const Fit& fit);
+
 constexpr int kNoiseDraws = 200;
 
 /// Mean square position errors that noise alone makes where the prediction is right: heading and distance that walk,

@@ -117,7 +117,8 @@ std::optional<Linearisation> Screen::near(const Fit& fit, const Hypothesis& hypo
   return near;
 }
 
-std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
+std::vector<Screen::Candidate> Screen::by_derivatives(const Fit& fit,
+                                                      const std::function<bool(const Hypothesis&)>& chosen) const {
   const auto residual = model_.residuals(fit.predicted);
   const Eigen::Index own = fit.p.size();
   std::vector<Eigen::MatrixXd> all(columns_.size());
@@ -142,7 +143,7 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
     const auto [first, count] = range_[f];
     const bool there = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(),
                                    [&](const Hypothesis& g) { return g.effect == hypotheses_[f].effect; });
-    if (there) continue;
+    if (there || !chosen(hypotheses_[f])) continue;
     std::vector<int> columns = base;
     Eigen::VectorXd moved = Eigen::VectorXd::Zero(fixed + count);
     moved.head(fixed) = shift;
@@ -168,13 +169,20 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
       }
     }
     if (possible) c.p_value = chi_squared_tail(misfit_without[e.prior] - e.misfit, count);
+    candidates.push_back(std::move(c));
+  }
+  return candidates;
+}
+
+std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
+  std::vector<Candidate> candidates = by_derivatives(fit, [](const Hypothesis&) { return true; });
+  for (Candidate& c : candidates) {
     if (const auto shown = shown_start(c.hypothesis.effect, model_.command_features())) {
       c.start[0] = std::clamp(*shown, c.hypothesis.parameters[0].min, c.hypothesis.parameters[0].max);
       try_start(fit, c);
     }
     if (is(c.hypothesis.effect, kThreshold)) try_frictions(fit, c);
     c.gain += model_.log_chance({effect_of(c.hypothesis, c.start)});
-    candidates.push_back(std::move(c));
   }
   offer_local(fit, candidates);
   std::sort(candidates.begin(), candidates.end(),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -35,6 +36,9 @@ class Screen {
 
   /// Hypotheses that could explain what `fit` leaves, best first; local ones (places, moments) are searched for anew.
   std::vector<Candidate> on_top_of(const Fit& fit) const;
+
+  /// Those that are chosen, as their derivatives alone say, in the catalogue's order: nothing is simulated.
+  std::vector<Candidate> by_derivatives(const Fit& fit, const std::function<bool(const Hypothesis&)>& chosen) const;
 
   /// Of a fit and a hypothesis that acts in proportion on top of it, whose derivatives were taken at the nominal robot.
   std::optional<Linearisation> near(const Fit& fit, const Hypothesis& hypothesis) const;
