@@ -1,14 +1,18 @@
 // replay_page.mjs TOOLS REPORT.html: the 3D replay of a run.
 import assert from "node:assert/strict";
-import {close, dataOf, differ, open, pages, picture, run} from "./browser.mjs";
+import {close, dataOf, differ, open, pages, picture, run, sound} from "./browser.mjs";
 
 const [file] = pages;
 const data = dataOf(file);
 const runs = data.runs.filter((r) => (r.truth ?? r.recorded)?.length > 1);
 const poses = (r) => r.truth ?? r.recorded;
 
+const shared = {};
+
+// The page with its picture; the same for all parts of the test that ask for nothing else.
 async function started(options) {
-  const page = await open(file, {hash: "#replay", ...options});
+  const page = (!options && shared.page) || await open(file, {hash: "#replay", ...options});
+  if (!options) shared.page = page;
   await page.locator("#replay").scrollIntoViewIfNeeded();
   await page.waitForSelector("canvas[data-frames]");
   return page;
@@ -34,11 +38,12 @@ await run({
       const angles = JSON.parse(await page.locator("canvas").getAttribute("data-wheels"));
       for (const w of [0, 1]) assert.ok(Math.abs(angles[w] - end[w]) < 1e-6, `${r.id}: wheels at ${angles}, recorded ${end}`);
     }
-    await close(page);
+    await sound(page);
   },
 
   async "it plays, pauses, and the charts' cursors go along"() {
     const page = await started();
+    await page.locator("[data-replay=run]").selectOption("0");
     await seek(page, 0);
     const still = await picture(page.locator("canvas"));
     const from = await pose(page);
@@ -56,7 +61,7 @@ await run({
       assert.equal(await page.locator("#growth-position .cursor line").count(), 1);
       assert.equal(await page.locator("#figure-2 .cursor circle").count(), 1);
     }
-    await close(page);
+    await sound(page);
   },
 
   async "camera, ghosts and keys"() {
@@ -84,18 +89,18 @@ await run({
       await page.waitForTimeout(250);
       differ(withGhosts, await picture(canvas), "ghosts");
     }
-    await close(page);
+    await sound(page);
   },
 
   async "a click on a curve takes the robot there"() {
     const page = await started();
-    if (!await page.locator("#growth-position").count()) return close(page);
+    if (!await page.locator("#growth-position").count()) return sound(page);
     await page.locator("#growth-position").scrollIntoViewIfNeeded();
     const box = await page.locator("#growth-position svg").boundingBox();
     const before = await pose(page);
     await page.mouse.click(box.x + 0.7 * box.width, box.y + 0.5 * box.height);
     assert.notDeepEqual(await pose(page), before);
-    await close(page);
+    await sound(page);
   },
 
   async "phone and dark mode"() {
