@@ -258,7 +258,7 @@ std::string verdict(const Diagnosis& d, const std::vector<NextExperiment>& next)
   if (!is_effect(d.causes.front().name)) return unknown(d) + effective(d) + next_text(next);
   std::string text;
   for (const std::string& sentence : sentences(d)) text += sentence + " ";
-  return text + worth(d) + effective(d) + ties_text(d, next) + next_text(next);
+  return text + worth(d) + ties_text(d, next) + effective(d) + next_text(next);
 }
 
 }  // namespace umbsim::gap

@@ -66,7 +66,7 @@ export function tiles(d: Figures): Tile[] {
 function twinHolds(effective: Figures | null): string {
   if (!effective) return "with the effect added";
   const dimensions = Object.keys(effective.dimensions).map(words).join(" and ");
-  return effective.beside_causes ? `with an effective ${dimensions}, too` : `with an effective ${dimensions} instead`;
+  return effective.beside_causes ? `with an effective ${dimensions}` : `with an effective ${dimensions} in their place`;
 }
 
 export function closure(d: Figures): Html {
@@ -79,7 +79,7 @@ export function closure(d: Figures): Html {
     caption: "Each condition predicted with numbers fitted on the others: position along the run (r.m.s.), heading at its end", keepEmpty: true, stack: true,
     head: ["", "", "position", "heading"], rows: [
       row("scenario as it was", c.before_mm, "rest", c.before_deg),
-      ...(c.effective ? [row("with the causes added", c.effective.after_mm_without, "tied")] : []),
+      ...(c.effective ? [row("with the causes", c.effective.after_mm_without, "tied")] : []),
       row(twinHolds(c.effective), c.after_mm, "tied", c.after_deg),
       row("noise floor", c.noise_floor_mm, "floor")]})}
     ${conditions.length ? table({caption: "Each held-out condition", stack: true, head: ["condition", "before", "after"],
