@@ -64,6 +64,12 @@ bool takes_more_than_it_leaves(const Closure& closure) {
   return closure.known && closure.together().mm > closure.after_mm;
 }
 
+// What contacts do beside other effects may mend how engines differ.
+bool may_mend_contacts(const Fit& fit) {
+  return fit.hypotheses.size() > 1 && std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(),
+                                                  [](const Hypothesis& h) { return is_contact(h.effect); });
+}
+
 bool is_unknown(const Diagnosis& d) { return d.causes.front().name == "unknown"; }
 
 bool names_what_foretells(const Diagnosis& d) { return !is_unknown(d) && takes_more_than_it_leaves(d.closure); }
@@ -85,7 +91,8 @@ Diagnosis diagnose(Model& model, const std::set<std::string>& excluded, const Th
   const Cause& cause = first.causes.front();
   const bool doubtful = model.surely_another_engines(none) && !model.same_engine(cause.fit);
   const bool another_engines =
-      model.surely_another_engines(cause.fit) || (doubtful && !takes_more_than_it_leaves(first.closure));
+      model.surely_another_engines(cause.fit) ||
+      (doubtful && (may_mend_contacts(cause.fit) || !takes_more_than_it_leaves(first.closure)));
   if (!another_engines) return first;
   Model another = model;
   another.take_for_another_engines();
