@@ -6,6 +6,7 @@
 
 #include "gap/answer/answer_set.h"
 #include "gap/answer/closure.h"
+#include "gap/answer/effective_twin.h"
 #include "gap/answer/explanation.h"
 #include "gap/answer/ranking.h"
 #include "gap/answer/where.h"
@@ -74,6 +75,13 @@ bool is_unknown(const Diagnosis& d) { return d.causes.front().name == "unknown";
 
 bool names_what_foretells(const Diagnosis& d) { return !is_unknown(d) && takes_more_than_it_leaves(d.closure); }
 
+// The answer with what stands in its twin for what the causes leave.
+Diagnosis answered(const Model& model, const std::set<std::string>& excluded, Diagnosis d) {
+  if (d.closure.known && d.closure.after_mm > d.closure.most_noise_mm)
+    d.effective = effective_twin(model, Screen(model, excluded), model.none(), d.twin, d.closure);
+  return d;
+}
+
 // Nothing, or what counts show.
 bool names_no_pose(const Diagnosis& d) {
   return !d.detected || std::all_of(d.explanation.hypotheses.begin(), d.explanation.hypotheses.end(),
@@ -93,7 +101,7 @@ Diagnosis diagnose(Model& model, const std::set<std::string>& excluded, const Th
   const bool another_engines =
       model.surely_another_engines(cause.fit) ||
       (doubtful && (may_mend_contacts(cause.fit) || !takes_more_than_it_leaves(first.closure)));
-  if (!another_engines) return first;
+  if (!another_engines) return answered(model, excluded, std::move(first));
   Model another = model;
   another.take_for_another_engines();
   const ProgressCallback progress_again = [&](const std::string& stage, double share) {
@@ -104,10 +112,10 @@ Diagnosis diagnose(Model& model, const std::set<std::string>& excluded, const Th
   const bool excused = hidden || names_what_foretells(again);
   if (first.not_fitted || (is_unknown(first) && !excused) || (is_unknown(again) && names_what_foretells(first))) {
     first.simulated_s = again.simulated_s;
-    return first;
+    return answered(model, excluded, std::move(first));
   }
   model = std::move(another);
-  return again;
+  return answered(model, excluded, std::move(again));
 }
 
 }  // namespace umbsim::gap

@@ -66,7 +66,6 @@ Fit driven_part(const Model& model, Fit twin) {
 
 std::optional<EffectiveTwin> effective_twin(const Model& model, const Screen& screen, const Fit& none, const Fit& twin,
                                             const Closure& closure) {
-  if (!closure.known || closure.after_mm <= closure.most_noise_mm) return std::nullopt;
   const bool takes_nothing = twin.hypotheses.empty() || closure.after_mm == closure.before_mm;
   EffectiveTwin best = calibrated(model, screen, takes_nothing ? none : driven_part(model, twin), closure);
   if (!takes_nothing) {

@@ -9,7 +9,6 @@
 
 #include "effects/words.h"
 #include "gap/answer/closure.h"
-#include "gap/answer/effective_twin.h"
 #include "gap/answer/not_fitted.h"
 #include "gap/answer/twin.h"
 #include "gap/answer/where.h"
@@ -218,7 +217,6 @@ void explain(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis
     name_what_foretells(w, best, d);
     leave_the_ordinary_out(w, best, d);
   }
-  d.effective = effective_twin(w.model, w.screen, w.none, d.twin, d.closure);
   d.remainder = remainder_of(w.model, w.screen, w.none, d, left.all());
 }
 
