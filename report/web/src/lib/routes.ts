@@ -73,6 +73,7 @@ export function setupRoutes<R extends Driven>(place: HTMLElement, r: Routes<R>):
   place.addEventListener("input", (event) => {
     const input = event.target as HTMLInputElement;
     if (input.dataset.direction) return r.chosen.set({...r.chosen.value, [input.dataset.direction]: r.runs[Number(input.value)]});
+    if (!input.matches("input.enlarge")) return;  // a chart whose tip moves says so, too
     factor = factorAt(input);
     redraw();
   });
