@@ -66,7 +66,7 @@ bool takes_more_than_it_leaves(const Closure& closure) {
 }
 
 // What contacts do beside other effects may mend how engines differ.
-bool may_mend_contacts(const Fit& fit) {
+bool holds_contacts_beside_others(const Fit& fit) {
   return fit.hypotheses.size() > 1 && std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(),
                                                   [](const Hypothesis& h) { return is_contact(h.effect); });
 }
@@ -100,7 +100,7 @@ Diagnosis diagnose(Model& model, const std::set<std::string>& excluded, const Th
   const bool doubtful = model.surely_another_engines(none) && !model.same_engine(cause.fit);
   const bool another_engines =
       model.surely_another_engines(cause.fit) ||
-      (doubtful && (may_mend_contacts(cause.fit) || !takes_more_than_it_leaves(first.closure)));
+      (doubtful && (holds_contacts_beside_others(cause.fit) || !takes_more_than_it_leaves(first.closure)));
   if (!another_engines) return answered(model, excluded, std::move(first));
   Model another = model;
   another.take_for_another_engines();

@@ -194,20 +194,19 @@ Eigen::VectorXd Model::numbers_on(const Fit& fit, const std::vector<std::size_t>
   const Eigen::VectorXd shift = after_nuisances(nuisances(), fit.p);
   const Eigen::VectorXd s = prior_sd_of(fit.hypotheses);
   const Evidence e = evidence(fit.grams, runs, first_columns(shift.size()), with_more(nuisance_sds(), s), shift);
-  Fit other = fit;
-  other.p = e.mean.tail(fit.p.size());
+  Eigen::VectorXd numbers = e.mean.tail(fit.p.size());
   Eigen::Index i = 0;
   bool all_told = true;
   for (const FreeParameter& p : free_parameters(fit.hypotheses)) {
     // What happened in one run alone no other run can tell: the number stays as it is.
     const double sd_left = std::sqrt(e.covariance(nuisances() + i, nuisances() + i));
     const bool told = sd_left < 0.8 * p.prior_sd;
-    if (!told) other.p[i] = fit.p[i];
+    if (!told) numbers[i] = fit.p[i];
     all_told = all_told && told;
-    other.p[i] = std::clamp(other.p[i], p.min, p.max);
+    numbers[i] = std::clamp(numbers[i], p.min, p.max);
     ++i;
   }
-  if (fit.linear || !all_told) return other.p;
+  if (fit.linear || !all_told) return numbers;
   // Where the simulator bends the derivatives may point off the hill: the descent steps back then.
   Descent d{Linearisation{fit.p, residuals(fit.predicted), fit.columns}};
   return descend(fit.hypotheses, fit.p, kRoundsOnFewer, runs, d, false).p;

@@ -15,6 +15,8 @@ await run({
     await slider.fill("8");
     assert.equal(await page.locator("#figure-2 output").textContent(), "\u00d730");
     assert.notEqual(await path.getAttribute("d"), before);
+    await page.locator("#path-0 svg").dispatchEvent("input");  // as a chart does whose tip moves
+    assert.equal(await page.locator("#figure-2 output").textContent(), "\u00d730");
     const options = page.locator("#figure-2 select").first().locator("option");
     if (await options.count() > 1) {
       const curve = page.locator("#growth-position .series path").first();

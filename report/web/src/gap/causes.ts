@@ -90,9 +90,9 @@ export function next(data: GapData): Html {
   const d = data.diagnosis;
   const items = (d.next_experiment ?? []).map((n: Figures) => html`<li><b>${n.run}</b> separates ${(n.separates ?? []).map(words).join(", ")}</li>`);
   const ties = (d.indistinguishable ?? []).map((t: string[]) => html`<li>Alike in these runs: ${t.map(words).join(", ")}</li>`);
-  const twin = d.causes?.some((c: Figures) => c.worth) || (d.gap.detected && d.causes?.length && isNamed(d.causes[0]));
+  const twin = d.causes?.some((c: Figures) => c.worth) || d.closure?.effective || (d.gap.detected && d.causes?.length && isNamed(d.causes[0]));
   const limits = (d.limits ?? []).map((l: string) => html`<li>${l}</li>`);
   return html`<ul>${items.length ? items : d.set?.length > 1 ? "" : html`<li>No further run is needed to tell the explanations apart.</li>`}${ties}
-    ${twin ? html`<li><code>umbsim run twin.yaml</code> drives the scenario with the effect added.</li>` : ""}</ul>
+    ${twin ? html`<li><code>umbsim run twin.yaml</code> drives the scenario with what the twin holds.</li>` : ""}</ul>
     ${limits.length ? html`<p>Limits of this answer:</p><ul>${limits}</ul>` : ""}`;
 }
