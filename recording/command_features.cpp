@@ -24,7 +24,8 @@ double first_time(const std::vector<double>& t, const std::vector<double>& x, do
   return t.back();
 }
 
-// Plateau of one stretch's speed, and how fast it is reached between a fifth and four fifths of it.
+// Plateau of one stretch's speed, and how fast it is reached between a fifth and four fifths of it; 0 where no reading
+// lies between them: a set-point that jumps from one reading to the next says nothing of an acceleration.
 struct Ramp {
   double speed = 0;
   double acceleration = 0;
@@ -51,8 +52,10 @@ Ramp ramp(const RecordedRun& run, const Stretch& s, const RecordedRobot& robot) 
   std::sort(sorted.begin(), sorted.end());
   Ramp r;
   r.speed = sorted[sorted.size() * 3 / 4];
-  const double dt = first_time(t, v, 0.8 * r.speed) - first_time(t, v, 0.2 * r.speed);
-  r.acceleration = dt > 1e-4 ? 0.6 * r.speed / dt : 0;
+  const double low = 0.2 * r.speed, high = 0.8 * r.speed;
+  const auto begun = std::find_if(v.begin(), v.end(), [&](double x) { return x >= low; });
+  if (begun == v.end() || *begun >= high) return r;
+  r.acceleration = 0.6 * r.speed / (first_time(t, v, high) - first_time(t, v, low));
   return r;
 }
 
@@ -105,13 +108,10 @@ CommandFeatures measured_command_features(const Recording& recording,
     for (const Stretch& s : stretches[r]) {
       if (s.kind == Stretch::Kind::still || s.end_s - s.start_s < 0.5) continue;
       const Ramp x = ramp(recording.runs[r], s, recording.robot);
-      if (x.acceleration <= 0) continue;
-      if (s.kind == Stretch::Kind::leg) {
-        linear.push_back(x.acceleration);
-      } else if (in_place) {
-        angular.push_back(x.acceleration);
-        turning.push_back(x.speed);
-      }
+      const bool turns = s.kind == Stretch::Kind::turn;
+      if (turns && !in_place) continue;
+      if (x.acceleration > 0) (turns ? angular : linear).push_back(x.acceleration);
+      if (turns && x.speed > 0) turning.push_back(x.speed);
     }
   }
   const auto ratio = [](const std::vector<double>& measured, const std::optional<double>& declared) {

@@ -24,6 +24,19 @@ Pose2 wheel_place(const Pose2& X_WB, int wheel, double wheelbase_m) {
   return X_WB * Pose2{0, (wheel == 0 ? 0.5 : -0.5) * wheelbase_m, 0};
 }
 
+// Way that a wheel has rolled until each sample of a run's truth, as the counts say: it does not grow while a robot
+// stands and a noisy tracker sees it here and there.
+std::vector<double> rolled_m(const Model& model, std::size_t r, int wheel) {
+  const std::vector<Pose2>& track = model.nominal().tracks[r];
+  std::vector<double> way{0};
+  for (std::size_t k = 1; k < track.size(); ++k) {
+    const double b_m = model.recording().robot.wheelbase_m;
+    const Pose2 a = wheel_place(track[k - 1], wheel, b_m), b = wheel_place(track[k], wheel, b_m);
+    way.push_back(way.back() + std::hypot(b.x_m - a.x_m, b.y_m - a.y_m));
+  }
+  return way;
+}
+
 // Whether the robot goes straight, at each sample of a run's truth.
 std::vector<bool> goes_straight(const Model& model, std::size_t r) {
   std::vector<bool> straight;
@@ -79,10 +92,12 @@ Impulses find_impulses(const Model& model, const Fit& fit) {
 
   // Where the wheels were, once and for all.
   std::vector<std::array<std::vector<Pose2>, 2>> wheels(runs);
+  std::vector<std::array<std::vector<double>, 2>> way_m(runs);
   std::vector<std::vector<bool>> straight;
   for (std::size_t r = 0; r < runs; ++r) straight.push_back(goes_straight(model, r));
   for (std::size_t r = 0; r < runs; ++r) {
     for (int w = 0; w < 2; ++w) {
+      way_m[r][std::size_t(w)] = rolled_m(model, r, w);
       for (std::size_t k = 0; k < recording.runs[r].truth.size(); ++k) {
         // Where the tracker saw the robot; between end points, where the wheels believed to be.
         const bool tracked = model.campaign().of(r).truth_kind != "endpoints";
@@ -118,8 +133,9 @@ Impulses find_impulses(const Model& model, const Fit& fit) {
     std::vector<double> shown(runs);
     for (std::size_t r = 0; r < runs; ++r) {
       for (int w = 0; w < 2; ++w) {
-        // Nearest approach of each pass, once each.
-        const double reach2 = scale * kReach_m * scale * kReach_m;
+        // Nearest approach of each pass, once each. A pass is over when the wheel has rolled on beyond its reach.
+        const std::vector<double>& way = way_m[r][std::size_t(w)];
+        const double reach_m = scale * kReach_m, reach2 = reach_m * reach_m;
         double nearest = reach2;
         std::size_t at = 0;
         const auto take = [&] {
@@ -145,7 +161,7 @@ Impulses find_impulses(const Model& model, const Fit& fit) {
           if (d < nearest) {
             nearest = d;
             at = k;
-          } else if (d > reach2) {
+          } else if (way[k] - way[at] > 2 * reach_m) {
             take();
           }
         }
