@@ -18,6 +18,9 @@ constexpr double kCap = 3;  // median absolute deviations (1.48 of them: a stand
 constexpr int kRounds = 3;
 constexpr double kLeastSpread = 1e-4;  // m and rad: no tracker is better
 constexpr std::size_t kLeastRows = 30;  // of ten steady readings: else nothing is known of clock and point
+// Of clocks (s), tracked points (m) and a wrong scale before anything is seen. On a circle a point aside of the axle's
+// middle, and a scale, look alike.
+const Eigen::Vector4d kPriorSd(0.1, 0.05, 0.05, 0.02);
 
 // What the tracker saw of a reading, beside the replay.
 struct Reading {
@@ -93,19 +96,19 @@ Tracker tracker_of(const std::vector<Reading>& readings) {
   Eigen::MatrixXd A(rows.size(), 5);
   for (std::size_t i = 0; i < rows.size(); ++i) A.row(Eigen::Index(i)) = rows[i];
   Eigen::VectorXd weight = Eigen::VectorXd::Ones(A.rows());
-  // Rather none of all than much of any.
-  const Eigen::Vector4d prior(1e-6, 1e-6, 1e-6, 1e-6);
   Eigen::Vector4d x = Eigen::Vector4d::Zero();
+  double spread = kLeastSpread;
   for (int round = 0; round < kRounds; ++round) {
     const Eigen::MatrixXd W = A.leftCols<4>().transpose() * weight.asDiagonal();
     Eigen::Matrix4d normal = W * A.leftCols<4>();
-    normal.diagonal() += prior;
+    normal.diagonal() += (spread / kPriorSd.array()).square().matrix();
     x = normal.ldlt().solve(W * A.col(4));
     const Eigen::VectorXd left = (A.col(4) - A.leftCols<4>() * x).cwiseAbs();
     std::vector<double> sorted(left.data(), left.data() + left.size());
     const auto middle = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
-    const double cap = kCap * 1.48 * std::max(*middle, kLeastSpread);
+    spread = 1.48 * std::max(*middle, kLeastSpread);
+    const double cap = kCap * spread;
     for (Eigen::Index i = 0; i < left.size(); ++i) weight[i] = left[i] > cap ? cap / left[i] : 1;
   }
   return {x[0], {x[1], x[2]}};
