@@ -151,16 +151,17 @@ bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
   return !w.may_name(kUnevenFloor) || !may_be_uneven_floor(w.model, w.none);
 }
 
-// The fit of what counts show, or else of what rolls, or of a place or moment that is all that is found, and closes a
-// gap.
+// The fit of what counts show, or else of what rolls, and of a place or moment, if there is a gap to close: engines
+// differ wherever wheels touch the floor, and not at one place.
 Fit without_contacts(const Context& w, Fit fit, const Closure& closure) {
-  if (w.model.taken_for_another_engines() && closure.known && fit.hypotheses.size() == 1 && fit.is_local()) return fit;
   const auto counted = [](const Hypothesis& h) { return shows_in_counts(h); };
   const bool any_counted = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(), counted);
   for (std::size_t i = 0; i < fit.hypotheses.size();) {
     const Hypothesis& h = fit.hypotheses[i];
-    Fit less = is_contact(h.effect) || (any_counted && !counted(h)) ? w.model.without(fit, i) : fit;
-    if (less.hypotheses.size() == fit.hypotheses.size() || counts_lose(w, less, fit))
+    const bool may_be_engines = is_contact(h.effect) || (any_counted && !counted(h));
+    const bool stays = !may_be_engines || (closure.known && h.search_cost > 0);
+    Fit less = stays ? fit : w.model.without(fit, i);
+    if (stays || counts_lose(w, less, fit))
       ++i;
     else
       fit = std::move(less);
