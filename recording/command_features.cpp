@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace umbsim {
@@ -24,8 +25,8 @@ double first_time(const std::vector<double>& t, const std::vector<double>& x, do
   return t.back();
 }
 
-// Plateau of one stretch's speed, and how fast it is reached between a fifth and four fifths of it; 0 where no reading
-// lies between them: a set-point that jumps from one reading to the next says nothing of an acceleration.
+// Plateau of one stretch's speed, and how fast it is reached between a fifth and four fifths of it; without end where
+// no reading lies between them and the set-point jumps.
 struct Ramp {
   double speed = 0;
   double acceleration = 0;
@@ -54,8 +55,9 @@ Ramp ramp(const RecordedRun& run, const Stretch& s, const RecordedRobot& robot) 
   r.speed = sorted[sorted.size() * 3 / 4];
   const double low = 0.2 * r.speed, high = 0.8 * r.speed;
   const auto begun = std::find_if(v.begin(), v.end(), [&](double x) { return x >= low; });
-  if (begun == v.end() || *begun >= high) return r;
-  r.acceleration = 0.6 * r.speed / (first_time(t, v, high) - first_time(t, v, low));
+  const bool jumps = begun == v.end() || *begun >= high;
+  r.acceleration = jumps ? std::numeric_limits<double>::infinity()
+                         : 0.6 * r.speed / (first_time(t, v, high) - first_time(t, v, low));
   return r;
 }
 
@@ -110,12 +112,15 @@ CommandFeatures measured_command_features(const Recording& recording,
       const Ramp x = ramp(recording.runs[r], s, recording.robot);
       const bool turns = s.kind == Stretch::Kind::turn;
       if (turns && !in_place) continue;
-      if (x.acceleration > 0) (turns ? angular : linear).push_back(x.acceleration);
-      if (turns && x.speed > 0) turning.push_back(x.speed);
+      if (x.speed <= 0) continue;
+      (turns ? angular : linear).push_back(x.acceleration);
+      if (turns) turning.push_back(x.speed);
     }
   }
   const auto ratio = [](const std::vector<double>& measured, const std::optional<double>& declared) {
-    return measured.size() >= 3 && declared && *declared > 0 ? std::log(median(measured) / *declared) : 0;
+    if (measured.size() < 3 || !declared || *declared <= 0) return 0.0;
+    const double middle = median(measured);
+    return std::isfinite(middle) ? std::log(middle / *declared) : 0;  // jumps say nothing of an acceleration
   };
   if (p.shape == "square") {
     command_features[0] = ratio(linear, p.linear_acceleration_mps2);
