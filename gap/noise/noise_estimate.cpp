@@ -35,19 +35,20 @@ struct Difference {
   Eigen::VectorXd column;
   std::vector<Pose2> path;
   std::vector<double> rolled_m;
+  std::vector<bool> seen;  // of end points: which samples are; else empty
 };
 
 // Each run once as the first of a pair, in samples that are at least so long apart.
 std::vector<Difference> differences(const NominalReplay& n, double apart_s) {
   std::vector<Difference> result;
-  if (n.recording->path.shape != "square" || n.recording->truth_kind == "endpoints") return result;
+  const bool ends = n.recording->truth_kind == "endpoints";
   for (std::size_t a = 0; a < n.runs(); ++a) {
     for (std::size_t b = a + 1; b < n.runs(); ++b) {
       if (!n.same_condition(a, b) || !alike(n.tracks[a], n.tracks[b])) continue;
       const Eigen::VectorXd first = track_error(n.tracks[a], n.truth[a]);
       const Eigen::VectorXd second = track_error(n.tracks[b], n.truth[b]);
       const auto& times = n.recording->runs[a].truth;
-      Difference d{Eigen::VectorXd(first.size()), {}, {}};
+      Difference d{Eigen::VectorXd(first.size()), {}, {}, {}};
       Eigen::Index rows = 0;
       double rolled_m = 0;
       double next_s = times.front().time_s;
@@ -57,6 +58,7 @@ std::vector<Difference> differences(const NominalReplay& n, double apart_s) {
         d.column.segment<3>(rows) = first.segment<3>(3 * Eigen::Index(k)) - second.segment<3>(3 * Eigen::Index(k));
         d.path.push_back(n.tracks[a][k]);
         d.rolled_m.push_back(rolled_m);
+        if (ends) d.seen.push_back(n.seen[a][k] && n.seen[b][k]);
         rows += 3;
         rolled_m = 0;
         next_s = times[k].time_s + apart_s;
@@ -78,9 +80,23 @@ double replicate_log_likelihood(const std::vector<Difference>& differences, cons
   twice.heading_sd_rad *= M_SQRT2;
   double total = 0;
   for (const Difference& d : differences) {
-    total += robust_log_likelihood(TrackFilter(d.path, d.rolled_m, twice), d.column);
+    total += robust_log_likelihood(TrackFilter(d.path, d.rolled_m, twice, d.seen), d.column);
   }
   return total;
+}
+
+// End points are few: what is usual counts beside them. Walks are known to a factor of three, errors of a reading,
+// which a recording states, to a fifth.
+double log_prior(const NoiseModel& noise, const NoiseModel& usual) {
+  constexpr double kWalk = 2 * 1.1, kReading = 0.2;  // standard deviations of logarithms
+  double square = 0;
+  for (const auto walk : {&NoiseModel::heading_rad2_pm, &NoiseModel::along_m2_pm, &NoiseModel::across_m2_pm}) {
+    square += std::pow(std::log(noise.*walk / usual.*walk) / kWalk, 2);
+  }
+  for (const auto sd : {&NoiseModel::position_sd_m, &NoiseModel::heading_sd_rad, &NoiseModel::clock_s}) {
+    square += std::pow(std::log(noise.*sd / usual.*sd) / kReading, 2);
+  }
+  return -0.5 * square;
 }
 
 // Of a tracker that sees no heading (a total station) the column may hold anything, such as what the counts add up to:
@@ -194,15 +210,18 @@ NoiseEstimate estimate_noise(const NominalReplay& nominal, const NoiseModel& lea
   start.position_sd_m = std::hypot(position, rounding_m / M_SQRT2);
   start.heading_sd_rad = std::hypot(heading, rounding_m * M_SQRT2 / recording.robot.wheelbase_m);
   const std::vector<Difference> repeated = differences(nominal, 0);
+  const auto log_likelihood = [&](const NoiseModel& noise) { return replicate_log_likelihood(repeated, noise); };
+  if (recording.truth_kind == "endpoints") {
+    const auto posterior = [&](const NoiseModel& noise) { return log_likelihood(noise) + log_prior(noise, start); };
+    return {most_likely(start, posterior), false, {}};
+  }
   if (!repeated.empty()) {
-    const auto log_likelihood = [&](const NoiseModel& noise) { return replicate_log_likelihood(repeated, noise); };
     const auto of_walks = [seldom = differences(nominal, kSeldom_s)](const NoiseModel& noise) {
       return replicate_log_likelihood(seldom, noise);
     };
     return {no_less_than(least, most_likely(start, log_likelihood), repeats(nominal)), true, of_walks};
   }
-  return {
-      recording.truth_kind == "track" ? no_less_than(least, from_what_is_left(nominal, start), 1) : start, false, {}};
+  return {no_less_than(least, from_what_is_left(nominal, start), 1), false, {}};
 }
 
 }  // namespace umbsim::gap

@@ -78,7 +78,7 @@ std::string found_text(const Diagnosis& d, const std::vector<NextExperiment>& ne
 }
 
 std::string nothing_text(const Diagnosis& d) {
-  std::string text = fmt::format("No gap beyond the noise (floor {:.1f} mm, scenario off by {:.1f} mm).\n",
+  std::string text = fmt::format("No gap is proved beyond the noise (floor {:.1f} mm, scenario off by {:.1f} mm).\n",
                                  d.noise_floor_mm, d.before_mm);
   if (d.set.size() > 1) text += wrapped(fmt::format("Not told apart: {}", fmt::join(d.set, ", ")));
   return text;

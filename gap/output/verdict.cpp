@@ -208,7 +208,7 @@ std::string next_text(const std::vector<NextExperiment>& next) {
 }
 
 std::string no_gap(const Diagnosis& d) {
-  std::string text = fmt::format("No gap beyond noise: {}.", gap_text(d));
+  std::string text = fmt::format("No gap beyond noise is proved: {}.", gap_text(d));
   Texts others;
   for (const std::string& name : d.set) {
     if (is_effect(name)) others.push_back(together(effects_in(name)));

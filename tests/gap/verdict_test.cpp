@@ -128,7 +128,7 @@ TEST(Verdict, NoGapSaysHowFarOffAndWhatCouldStillBe) {
   d.causes = {none};
   d.set = {"none"};
   EXPECT_EQ(said(d),
-            "No gap beyond noise: the scenario is off by 9.5 mm along the runs, and run-to-run noise alone "
+            "No gap beyond noise is proved: the scenario is off by 9.5 mm along the runs, and run-to-run noise alone "
             "makes 7.6 mm.");
   d.set = {"none", "wheelbase"};
   expect_in(said(d), "Too small to be proved by these runs, but possible: a wheelbase other than believed.");
