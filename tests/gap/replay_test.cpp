@@ -252,6 +252,24 @@ TEST(ReplayOfCommands, CommandFeaturesShowAsMuchOfADemandAsTheRecording) {
   }
 }
 
+// Full speed or none: a set-point that jumps between two readings has no acceleration, and is no harder driver.
+TEST(ReplayOfCommands, ASetPointThatJumpsSaysNothingOfAnAcceleration) {
+  Recording recording = run_experiment(squares(2, 2), 0).recording;
+  std::vector<std::vector<Stretch>> all;
+  for (RecordedRun& run : recording.runs) {
+    for (EncoderSample& e : run.encoders) {
+      for (double* command : {&e.left_command_radps, &e.right_command_radps}) {
+        *command = std::abs(*command) < 0.05 ? 0 : std::copysign(2.0, *command);
+      }
+    }
+    all.push_back(stretches(run, recording.robot));
+  }
+  const CommandFeatures features = measured_command_features(recording, all, 1);
+  std::cout << fmt::format("accelerations {:.3f} {:.3f}\n", features[0], features[1]);
+  EXPECT_EQ(features[0], 0);
+  EXPECT_EQ(features[1], 0);
+}
+
 // Counters that are read rarely stand still in between, however coarse they are: nothing else makes moving wheels do
 // so.
 TEST(ReplayOfCommands, RareSamplingShowsInCountsThatStandStill) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "core/random.h"
 #include "gap/answer/twin.h"
 #include "gap/evidence/generic.h"
 #include "gap/evidence/impulsive_residuals.h"
@@ -32,6 +33,35 @@ TEST(Unknown, NothingWrongHasNeitherImpulsesNorLateReadings) {
   std::cout << "log evidence without any effect: impulse " << impulse << ", late readings " << late << "\n";
   EXPECT_LT(impulse, Thresholds{}.sudden / 2);
   EXPECT_LT(late, Thresholds{}.late / 10);
+}
+
+// A camera that is three centimetres off sees a robot that stands here and there: it passes no place again by that.
+TEST(Unknown, ARobotThatStandsPassesNoPlaceAgain) {
+  Recording r = campaign({}, 61);
+  r.truth_position_sd_m = r.truth_heading_sd_rad = 0.03;
+  RandomStream random(5, "camera");
+  for (RecordedRun& run : r.runs) {
+    const double still_s = 30;
+    const EncoderSample last = run.encoders.back();
+    for (double t = 0.02; t < still_s; t += 0.02) {
+      run.encoders.push_back(last);
+      run.encoders.back().time_s += t;
+    }
+    const TruthSample end = run.truth.back();
+    for (double t = 0.05; t < still_s - 0.1; t += 0.05) run.truth.push_back({end.time_s + t, end.X_WB});
+    for (TruthSample& t : run.truth) {
+      for (double* number : {&t.X_WB.x_m, &t.X_WB.y_m, &t.X_WB.theta_rad}) *number += 0.03 * random.normal();
+    }
+  }
+  const Subject p(std::move(r));
+  const Impulses found = find_impulses(p.model, p.model.none());
+  ASSERT_FALSE(found.places.empty());
+  int most = 0;
+  for (const PlaceImpulse& place : found.places) most = std::max(most, place.passes);
+  std::cout << "impulse " << strongest(found) << " of log evidence, " << most << " passes at most of "
+            << p.recording.runs.size() << " runs\n";
+  EXPECT_LT(strongest(found), Thresholds{}.sudden / 2);
+  EXPECT_LE(most, 3 * int(p.recording.runs.size()));
 }
 
 // What acts through contacts may leave 15 % in another engine, what rolls and what is of this engine 1 %.
