@@ -1,0 +1,56 @@
+// The noise of a recording, from its repeated runs.
+#include "gap/noise/noise_estimate.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "gap/noise/least_noise.h"
+#include "tests/gap/subject.h"
+
+namespace umbsim::gap {
+namespace {
+
+using testing::squares;
+using testing::Subject;
+
+// Heading walk of the runs of a scenario, rad per square root of a metre, as its wheels make it and as it is estimated.
+std::pair<double, double> made_and_estimated(Scenario s, double wheel_noise) {
+  s.seed = 17;
+  s.noise.wheel_noise_m_per_sqrt_m = wheel_noise;
+  s.truth.position_sd_m = 0.002;
+  s.truth.heading_sd_rad = 0.005;
+  const Subject p(run_experiment(s, 0).recording);
+  const double made = std::sqrt(2.0) * wheel_noise / p.recording.robot.wheelbase_m;
+  const double estimated = std::sqrt(estimate_noise(p.model.nominal(), NoiseModel{}).noise.heading_rad2_pm);
+  fmt::print("heading walk {:.5f} rad/sqrt(m), estimated {:.5f}\n", made, estimated);
+  return {made, estimated};
+}
+
+TEST(NoiseEstimate, RepeatedEndPointsTellTheWalk) {
+  for (const double wheel_noise : {1e-4, 1e-3}) {
+    Scenario s = squares(2, 5);
+    s.truth.kind = "endpoints";
+    const auto [made, estimated] = made_and_estimated(s, wheel_noise);
+    EXPECT_NEAR(std::log(estimated / made), 0, std::log(1.6));
+  }
+}
+
+// Two pairs of end points say less than what is usual (6e-4) of a quiet robot.
+TEST(NoiseEstimate, FewEndPointsLeaveWhatIsUsual) {
+  Scenario s = squares(2, 1);
+  s.truth.kind = "endpoints";
+  EXPECT_NEAR(made_and_estimated(s, 1e-4).second, 6e-4, 1e-6);
+}
+
+TEST(NoiseEstimate, CirclesRepeatAsWellAsSquares) {
+  Scenario s = squares(2, 3);
+  s.course.shape = "circle";
+  s.course.radius_m = 1;
+  const auto [made, estimated] = made_and_estimated(s, 3e-4);
+  EXPECT_NEAR(std::log(estimated / made), 0, std::log(1.4));
+}
+
+}  // namespace
+}  // namespace umbsim::gap
