@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace umbsim {
@@ -25,11 +24,12 @@ double first_time(const std::vector<double>& t, const std::vector<double>& x, do
   return t.back();
 }
 
-// Plateau of one stretch's speed, and how fast it is reached between a fifth and four fifths of it; without end where
-// no reading lies between them and the set-point jumps.
+// Plateau of one stretch's speed, and how fast it is reached between a fifth and four fifths of it, on a line between
+// readings. Where none lies between them the set-point jumps.
 struct Ramp {
   double speed = 0;
   double acceleration = 0;
+  bool jumps = false;
 };
 
 Ramp ramp(const RecordedRun& run, const Stretch& s, const RecordedRobot& robot) {
@@ -55,9 +55,9 @@ Ramp ramp(const RecordedRun& run, const Stretch& s, const RecordedRobot& robot) 
   r.speed = sorted[sorted.size() * 3 / 4];
   const double low = 0.2 * r.speed, high = 0.8 * r.speed;
   const auto begun = std::find_if(v.begin(), v.end(), [&](double x) { return x >= low; });
-  const bool jumps = begun == v.end() || *begun >= high;
-  r.acceleration = jumps ? std::numeric_limits<double>::infinity()
-                         : 0.6 * r.speed / (first_time(t, v, high) - first_time(t, v, low));
+  r.jumps = begun == v.end() || *begun >= high;
+  const double dt = first_time(t, v, high) - first_time(t, v, low);
+  r.acceleration = dt > 1e-4 ? 0.6 * r.speed / dt : 0;
   return r;
 }
 
@@ -104,6 +104,7 @@ CommandFeatures measured_command_features(const Recording& recording,
   std::vector<double> linear;
   std::vector<double> angular;
   std::vector<double> turning;
+  int leg_jumps = 0, turn_jumps = 0;  // how many more starts jump than have a ramp
   for (std::size_t r = 0; r < recording.runs.size(); ++r) {
     if (!recording.runs[r].has_commands) continue;
     const bool in_place = recording.runs[r].turn.value_or(p.turn) == "in_place";
@@ -112,19 +113,21 @@ CommandFeatures measured_command_features(const Recording& recording,
       const Ramp x = ramp(recording.runs[r], s, recording.robot);
       const bool turns = s.kind == Stretch::Kind::turn;
       if (turns && !in_place) continue;
-      if (x.speed <= 0) continue;
+      if (x.acceleration <= 0) continue;
       (turns ? angular : linear).push_back(x.acceleration);
       if (turns) turning.push_back(x.speed);
+      (turns ? turn_jumps : leg_jumps) += x.jumps ? 1 : -1;
     }
   }
   const auto ratio = [](const std::vector<double>& measured, const std::optional<double>& declared) {
-    if (measured.size() < 3 || !declared || *declared <= 0) return 0.0;
-    const double middle = median(measured);
-    return std::isfinite(middle) ? std::log(middle / *declared) : 0;  // jumps say nothing of an acceleration
+    return measured.size() >= 3 && declared && *declared > 0 ? std::log(median(measured) / *declared) : 0;
   };
   if (p.shape == "square") {
-    command_features[0] = ratio(linear, p.linear_acceleration_mps2);
-    command_features[1] = ratio(angular, p.angular_acceleration_radps2);
+    // Of a driver without ramps nothing is measured of an acceleration.
+    if (leg_jumps < 0 || turn_jumps < 0) {
+      command_features[0] = ratio(linear, p.linear_acceleration_mps2);
+      command_features[1] = ratio(angular, p.angular_acceleration_radps2);
+    }
     command_features[2] = ratio(turning, p.angular_speed_radps);
   }
   command_features[3] = std::log(sampling_ratio(recording, stretches, count_step));
