@@ -60,11 +60,6 @@ Diagnosis diagnosed(const Model& model, const std::set<std::string>& excluded, c
   return d;
 }
 
-// What takes little away may stand for how engines differ.
-bool takes_more_than_it_leaves(const Closure& closure) {
-  return closure.known && closure.together().mm > closure.after_mm;
-}
-
 // What contacts do beside other effects may mend how engines differ.
 bool holds_contacts_beside_others(const Fit& fit) {
   return fit.hypotheses.size() > 1 && std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(),
@@ -73,7 +68,7 @@ bool holds_contacts_beside_others(const Fit& fit) {
 
 bool is_unknown(const Diagnosis& d) { return d.causes.front().name == "unknown"; }
 
-bool names_what_foretells(const Diagnosis& d) { return !is_unknown(d) && takes_more_than_it_leaves(d.closure); }
+bool names_what_foretells(const Diagnosis& d) { return !is_unknown(d) && d.closure.takes_more_than_it_leaves(); }
 
 // The answer with what stands in its twin for what the causes leave.
 Diagnosis answered(const Model& model, const std::set<std::string>& excluded, Diagnosis d) {
@@ -100,7 +95,7 @@ Diagnosis diagnose(Model& model, const std::set<std::string>& excluded, const Th
   const bool doubtful = model.surely_another_engines(none) && !model.same_engine(cause.fit);
   const bool another_engines =
       model.surely_another_engines(cause.fit) ||
-      (doubtful && (holds_contacts_beside_others(cause.fit) || !takes_more_than_it_leaves(first.closure)));
+      (doubtful && (holds_contacts_beside_others(cause.fit) || !first.closure.takes_more_than_it_leaves()));
   if (!another_engines) return answered(model, excluded, std::move(first));
   Model another = model;
   another.take_for_another_engines();

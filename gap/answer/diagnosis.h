@@ -55,6 +55,7 @@ struct Closure {
   std::vector<Worth> worth;  ///< of each of the fit's hypotheses, beside the others
 
   Worth together() const { return {before_mm - after_mm, before_deg - after_deg}; }
+  bool takes_more_than_it_leaves() const { return known && together().mm > after_mm; }
 };
 
 /// What the twin leaves of the gap.

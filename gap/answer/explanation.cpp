@@ -42,12 +42,32 @@ void put_first(const Fit& fit, double leftover, Diagnosis& d) {
   d.causes.insert(d.causes.begin(), Cause{fit.name(), fit, score, 0});
 }
 
+// What is beside an uneven floor takes off held-out runs what noise makes, and a place, which may be part of the floor,
+// as much as is left.
+Fit beside_uneven_floor(const Context& w, Fit fit, Closure& closure) {
+  for (std::size_t i = 0; i < fit.hypotheses.size();) {
+    const bool place = fit.hypotheses[i].search_cost > 0;
+    const double least_mm = place ? std::max(closure.floor_mm, closure.after_mm) : closure.floor_mm;
+    if (closure.known ? closure.worth[i].mm >= least_mm : !place) {
+      ++i;
+      continue;
+    }
+    fit = w.model.without(fit, i);
+    closure = held_out_closure(w.model, fit);
+    i = 0;
+  }
+  return fit;
+}
+
 // An effect that is found, but not fitted, in place of what would be unknown. Whether there is one.
 bool named_without_fit(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis& d) {
   if (w.may_name(kUnevenFloor)) {
-    const Fit& beside = takes_enough(w.model, best, d.closure) ? best : w.none;
+    Closure closure = d.closure;
+    const bool enough = takes_enough(w.model, best, closure);
+    const Fit beside = enough ? beside_uneven_floor(w, best, closure) : w.none;
     if (const auto uneven = with_uneven_floor(w.model, w.none, beside, left.lack, w.thresholds)) {
-      if (uneven->hypotheses.size() == 1) add_nothing(d.closure);
+      if (uneven->hypotheses.size() == 1) add_nothing(closure);
+      d.closure = closure;
       best = *uneven;
       put_first(best, left.all(), d);
       d.not_fitted = true;

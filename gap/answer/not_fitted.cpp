@@ -17,9 +17,7 @@ std::optional<Fit> with_uneven_floor(const Model& model, const Fit& none, const 
                                      const Thresholds& t) {
   // The same shifts of many passes pretend to be many numbers: an effect beside the floor has to explain a good share.
   const double explained = best.log_evidence - none.log_evidence;
-  // A place is part of the floor, unless it is far more than the rest.
-  const double share = best.is_local() ? t.place_beside_floor : t.beside_floor;
-  const bool stays = explained > share * (explained + lack);
+  const bool stays = explained > t.beside_floor * (explained + lack);
   const Fit& beside = stays ? best : none;
   const auto floor = find_uneven_floor(model, beside);
   if (!floor) return {};

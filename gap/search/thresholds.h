@@ -29,9 +29,8 @@ struct Thresholds {
   double sudden = 40;   ///< log evidence of what is sudden, at a place or a moment, that a difference of engines makes,
   double late = 150;    ///< and the same of readings that do not go with the counts
   double faint = 0.05;  ///< p-value of a single effect, below which it is in the set beside "none"
-  double plainly_shown = 100;       ///< log evidence of counts and commands that leaves no doubt
-  double beside_floor = 0.05;       ///< share of the misfit that an effect beside an uneven floor must explain
-  double place_beside_floor = 0.3;  ///< the same of a place or moment
+  double plainly_shown = 100;  ///< log evidence of counts and commands that leaves no doubt
+  double beside_floor = 0.05;  ///< share of the misfit that an effect beside an uneven floor must explain
   int most_effects = 3;
 };
 
