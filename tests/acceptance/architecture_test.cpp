@@ -260,7 +260,6 @@ const std::map<std::string, int> kLongFunctions = {
     {"effects/words.cpp", 200},
     {"exchange/text/column_meaning.cpp", 80},
     {"bench/worlds/engines/mujoco.cpp", 80},
-    {"gap/evidence/impulsive_residuals.cpp", 120},
     {"gap/answer/closure.cpp", 85},
     {"gap/output/diagnosis_json.cpp", 80},
     {"gap/search/screen.cpp", 75},
