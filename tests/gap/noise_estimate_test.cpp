@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "gap/noise/least_noise.h"
 #include "tests/gap/subject.h"
 
 namespace umbsim::gap {
@@ -37,8 +36,8 @@ TEST(NoiseEstimate, RepeatedEndPointsTellTheWalk) {
   }
 }
 
-// Two pairs of end points say less than what is usual (6e-4) of a quiet robot.
-TEST(NoiseEstimate, FewEndPointsLeaveWhatIsUsual) {
+// One run each way repeats nothing: 6e-4.
+TEST(NoiseEstimate, EndPointsThatDoNotRepeatLeaveWhatIsUsual) {
   Scenario s = squares(2, 1);
   s.truth.kind = "endpoints";
   EXPECT_NEAR(made_and_estimated(s, 1e-4).second, 6e-4, 1e-6);
