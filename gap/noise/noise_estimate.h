@@ -17,8 +17,8 @@ struct NoiseEstimate {
 
 /// The noise of a recording by maximum likelihood, large innovations capped: from the differences of repeated runs,
 /// which no effect touches; where no two runs can be subtracted, from what radii, wheelbase, tracker's frame and clock
-/// leave; nowhere below `least` (gap/noise/least_noise.h), whatever repeats say. Of end points, which are few, by maximum
-/// a posteriori beside what is usual.
+/// leave; nowhere below `least` (gap/noise/least_noise.h), whatever repeats say. Of end points, which are few, by
+/// maximum a posteriori beside what is usual.
 NoiseEstimate estimate_noise(const NominalReplay& nominal, const NoiseModel& least);
 
 }  // namespace umbsim::gap
