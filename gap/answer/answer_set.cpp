@@ -39,10 +39,10 @@ void add_what_explains(const Fit& best, const Fit& none, Diagnosis& d) {
 
 // What counts and commands plainly show: it is there, whatever else there may be.
 void add_what_counts_show(const Model& model, const Fit& none, const Thresholds& t, Diagnosis& d) {
-  const double before = model.counts_misfit(none.predicted);
+  const double before = model.counts_misfit(none);
   for (const Cause& c : d.causes) {
     if (c.fit.hypotheses.size() != 1 || !shows_in_counts(c.fit.hypotheses.front())) continue;
-    if (before - model.counts_misfit(c.fit.predicted) < 2 * t.plainly_shown) continue;
+    if (before - model.counts_misfit(c.fit) < 2 * t.plainly_shown) continue;
     add_to_set(c.name, d);
   }
 }

@@ -123,8 +123,8 @@ bool twin_lacks_mends_alone(const Model& model, const Diagnosis& d) {
 
 // Whether counts are missed by clearly more than with `richer`, which another engine's contacts do not make.
 bool counts_lose(const Context& w, const Fit& fit, const Fit& richer) {
-  const double counts = w.model.counts_misfit(richer.predicted);
-  return w.model.counts_misfit(fit.predicted) > counts + 2 * w.thresholds.addition;
+  const double counts = w.model.counts_misfit(richer);
+  return w.model.counts_misfit(fit) > counts + 2 * w.thresholds.addition;
 }
 
 // On another engine's recordings a contact's effect, or a dimension, beside others that takes too little away on
@@ -171,15 +171,15 @@ bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
   return !w.may_name(kUnevenFloor) || !may_be_uneven_floor(w.model, w.none);
 }
 
-// The fit of what counts show, or else of what rolls, and of a place or moment, if there is a gap to close: engines
-// differ wherever wheels touch the floor, and not at one place.
+// The fit of what counts show, or else of what rolls, and of what the world does at a place or along a direction, if
+// there is a gap to close: engines differ wherever wheels touch the floor, and all round.
 Fit without_contacts(const Context& w, Fit fit, const Closure& closure) {
   const auto counted = [](const Hypothesis& h) { return shows_in_counts(h); };
   const bool any_counted = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(), counted);
   for (std::size_t i = 0; i < fit.hypotheses.size();) {
     const Hypothesis& h = fit.hypotheses[i];
     const bool may_be_engines = is_contact(h.effect) || (any_counted && !counted(h));
-    const bool stays = !may_be_engines || (closure.known && h.search_cost > 0);
+    const bool stays = !may_be_engines || (closure.known && is_of_the_world(h.effect));
     Fit less = stays ? fit : w.model.without(fit, i);
     if (stays || counts_lose(w, less, fit))
       ++i;

@@ -28,12 +28,12 @@ std::optional<Fit> shown_commanded_motion(const Model& model, const std::vector<
                                           double generic_none, const Thresholds& t) {
   // What goes wrong at constant speed is not its doing.
   if (steady_gain(model, none) > kMostSteady * generic_none) return {};
-  const double before = model.counts_misfit(none.predicted);
+  const double before = model.counts_misfit(none);
   std::optional<Fit> found;
   double most = std::max(2 * t.plainly_shown, kMostOfCounts * before);
   for (const Cause& c : causes) {
     const bool commanded = c.fit.hypotheses.size() == 1 && is_commanded_motion(c.fit.hypotheses.front().effect);
-    const double shown = commanded ? before - model.counts_misfit(c.fit.predicted) : 0;
+    const double shown = commanded ? before - model.counts_misfit(c.fit) : 0;
     if (shown < most) continue;
     found = c.fit;
     most = shown;

@@ -116,14 +116,14 @@ void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const 
     const Fit& front = causes.front().fit;
     const auto dimension = [](const Hypothesis& f) { return is_dimension(f.effect); };
     if (model.tracker_is_free() && std::all_of(front.hypotheses.begin(), front.hypotheses.end(), dimension)) return;
-    const double counts = model.counts_misfit(front.predicted);
+    const double counts = model.counts_misfit(front);
     std::vector<const Fit*> others;
     bool any_fewer = false;
     for (std::size_t i = 1; i < causes.size() && causes[i].score > (1 - kLittle) * causes.front().score; ++i) {
       const Fit& other = causes[i].fit;
       const bool fewer = other.hypotheses.size() < front.hypotheses.size();
       if (other.hypotheses.empty() || other.hypotheses.size() > front.hypotheses.size()) continue;
-      if (model.counts_misfit(other.predicted) >= counts + 2 * t.addition || (fewer && any_fewer)) continue;
+      if (model.counts_misfit(other) >= counts + 2 * t.addition || (fewer && any_fewer)) continue;
       any_fewer = any_fewer || fewer;
       others.push_back(&other);
     }

@@ -3,22 +3,28 @@
 #include <tuple>
 
 #include "gap/evidence/model.h"
+#include "gap/hypotheses/parametrisations.h"
 
 namespace umbsim::gap {
+namespace {
 
-// With what counts against commands are measured; where they are judged alone, with what engines differ by.
-CountsSd Model::counts_sd(std::size_t run, bool alone) const {
+constexpr double kServo_s = 0.02;  // with which the response of a servo is found
+
+}  // namespace
+
+// With what counts against commands are measured.
+CountsSd Model::counts_sd(std::size_t run) const {
   const CommandResponse& measured = measured_.counted[run];
   if (!measured.known) return CountsSd::Zero();
-  const double gain = std::hypot(scatter_.gain, measured.gain_sd, alone ? scatter_.engine_gain : 0);
+  const double gain = std::hypot(scatter_.gain, measured.gain_sd);
   const double by_heading = std::hypot(scatter_.gain * measured.speed_radps, measured.by_heading_sd_radps);
   CountsSd sd;
-  sd << gain, gain, (alone ? scatter_.counts_lag_s : scatter_.run_lag_s), by_heading, by_heading;
+  sd << gain, gain, scatter_.run_lag_s, by_heading, by_heading;
   return sd;
 }
 
 // What differs between two of them, in standard deviations.
-Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const Predicted& b, bool alone) const {
+Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const Predicted& b) const {
   Eigen::VectorXd rows = Eigen::VectorXd::Zero(kFeatureRows);
   if (run == 0) {
     for (std::size_t i = 0; i < a.command_features.size(); ++i) {
@@ -31,15 +37,43 @@ Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const P
   CountsSd off;
   off << x.left_gain - y.left_gain, x.right_gain - y.right_gain, x.lag_s - y.lag_s,
       x.by_heading_radps - y.by_heading_radps;
-  rows.head<kCountRows>() = off.cwiseQuotient(counts_sd(run, alone));
+  rows.head<kCountRows>() = off.cwiseQuotient(counts_sd(run));
   return rows;
 }
 
-double Model::counts_misfit(const Predicted& predicted) const {
-  double sum = 0;
-  for (std::size_t r = 0; r < recording().runs.size(); ++r)
-    sum += feature_rows(r, measured_, predicted, true).squaredNorm();
-  return sum;
+// A servo that holds its speed in proportion to its torque gives way under its load, which it is driven for.
+CountsColumns Model::alike_in_counts(std::size_t run) const {
+  CountsColumns columns = CountsColumns::Zero(kFeatureRows, CountsColumns::ColsAtCompileTime);
+  const CommandResponse& nominal = without_effects_.counted[run];
+  if (!measured_.counted[run].known || !nominal.known) return columns;
+  const auto per_unit = [&](const CommandResponse& changed, double unit) {
+    Predicted with;
+    with.counted.assign(run + 1, nominal);
+    with.counted[run] = changed;
+    with.command_features = without_effects_.command_features;
+    return (feature_rows(run, with, without_effects_) / unit).eval();
+  };
+  CommandResponse gain = nominal, wheel = nominal, late = nominal;
+  gain.left_gain += 1;
+  gain.right_gain += 1;
+  wheel.left_gain += 0.5;
+  wheel.right_gain -= 0.5;
+  late.lag_s += 1;
+  columns.leftCols<3>() << per_unit(gain, 1), per_unit(wheel, 1), per_unit(late, 1);
+  // What a driver does along its course looks like a slope in one run, and is mirrored where the course is.
+  const double start_rad = recording().runs[run].truth.front().X_WB.theta_rad;
+  const double side = recording().runs[run].direction == "cw" ? -1 : 1;
+  const Eigen::Vector2d ahead(std::cos(start_rad), std::sin(start_rad));
+  CommandResponse along = nominal, across = nominal;
+  along.by_heading_radps += nominal.speed_radps * ahead;
+  across.by_heading_radps += nominal.speed_radps * side * Eigen::Vector2d(-ahead[1], ahead[0]);
+  columns.rightCols<2>() << per_unit(along, 1), per_unit(across, 1);
+  if (mass_kg() == 0) return columns;
+  Effect servo = neutral_effect(find_effect("motor_response"));
+  servo.values.numbers[index_of(*servo.info, "droop_radps_per_nm")] = kServo_s / motor_inertia_kgm2();
+  const auto turned = simulator_.commands(run, {servo});
+  columns.col(3) = per_unit(command_response(recording().runs[run], recording().robot, turned, step_rad_), kServo_s);
+  return columns;
 }
 
 double Model::counts_misfit(const Fit& fit) const {
@@ -47,7 +81,7 @@ double Model::counts_misfit(const Fit& fit) const {
   Eigen::VectorXd seen = Eigen::VectorXd::Zero(nuisances());  // of each nuisance in counts
   for (std::size_t r = 0; r < recording().runs.size(); ++r) {
     const Eigen::MatrixXd in_counts = nuisances_.shared[r].bottomRows(kFeatureRows);
-    sum += (feature_rows(r, measured_, fit.predicted, false) - in_counts * fit.nuisance).squaredNorm();
+    sum += (feature_rows(r, measured_, fit.predicted) - in_counts * fit.nuisance).squaredNorm();
     seen += in_counts.colwise().squaredNorm().transpose();
   }
   const Eigen::VectorXd& sd = nuisance_sds()[fit.prior];
@@ -58,7 +92,7 @@ double Model::counts_misfit(const Fit& fit) const {
 }
 
 double Model::command_features_misfit(const Predicted& predicted) const {
-  return feature_rows(0, measured_, predicted, true).tail(kFeatureRows - kCountRows).squaredNorm();
+  return feature_rows(0, measured_, predicted).tail(kFeatureRows - kCountRows).squaredNorm();
 }
 
 double Model::count_rows() const {

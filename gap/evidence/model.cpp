@@ -76,9 +76,9 @@ void Model::observe() {
     filters_.emplace_back(nominal_.tracks[r], nominal_.rolled_m[r], noise(r), nominal_.seen[r], nominal_.velocity[r]);
   }
   const Drive drive = [this](const std::vector<Effect>& effects) { return predict({effects}).front().tracks; };
-  std::vector<CountsSd> counts;
-  for (const std::size_t r : all_runs()) counts.push_back(counts_sd(r, false));
-  nuisances_ = make_nuisances(nominal_, filters_, scatter_, drive, noise_floor_m_, kFeatureRows, counts);
+  std::vector<CountsColumns> counts;
+  for (const std::size_t r : all_runs()) counts.push_back(alike_in_counts(r));
+  nuisances_ = make_nuisances(nominal_, filters_, scatter_, drive, noise_floor_m_, counts);
   products_of_nuisances_ = products_of_nuisances();
   const Evidence seen = evidence(grams(residuals(without_effects_), {}), all_runs(), first_columns(nuisances()),
                                  nuisances_.shared_sds.front());
@@ -132,7 +132,7 @@ std::vector<Eigen::VectorXd> Model::residuals(const Predicted& predicted) const 
     if (predicted.tracks[r].empty()) return;
     const Eigen::VectorXd white = filters_[r].whiten(filters_[r].error(predicted.tracks[r], nominal_.truth[r]));
     result[r].resize(white.size() + kFeatureRows);
-    result[r] << white, feature_rows(r, measured_, predicted, false);
+    result[r] << white, feature_rows(r, measured_, predicted);
   });
   return result;
 }
@@ -146,7 +146,7 @@ std::vector<Eigen::MatrixXd> Model::columns(const Predicted& at, const std::vect
     result[r].resize(n + kFeatureRows, raw.cols());
     for (std::size_t j = 0; j < stepped.size(); ++j) {
       raw.col(Eigen::Index(j)) = filters_[r].error(at.tracks[r], stepped[j].tracks[r]) / steps[j];
-      result[r].col(Eigen::Index(j)).tail(kFeatureRows) = feature_rows(r, stepped[j], at, false) / steps[j];
+      result[r].col(Eigen::Index(j)).tail(kFeatureRows) = feature_rows(r, stepped[j], at) / steps[j];
     }
     result[r].topRows(n) = filters_[r].whiten(raw);
   });

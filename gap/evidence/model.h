@@ -9,6 +9,7 @@
 
 #include "gap/evidence/evidence.h"
 #include "gap/hypotheses/hypothesis.h"
+#include "gap/noise/counts_noise.h"
 #include "gap/noise/noise_estimate.h"
 #include "gap/noise/nuisances.h"
 #include "gap/noise/track_filter.h"
@@ -86,7 +87,6 @@ class Model {
         const std::optional<NoiseModel>& known = std::nullopt);
 
   const Campaign& campaign() const { return *campaign_; }
-  /// The robot and all runs.
   const Recording& recording() const { return campaign_->all; }
   const NominalReplay& nominal() const { return nominal_; }
   /// Of the first recording.
@@ -154,9 +154,8 @@ class Model {
   /// Whitened residual of every run; empty where the run was not driven.
   std::vector<Eigen::VectorXd> residuals(const Predicted& predicted) const;
 
-  /// Sum of squares, in standard deviations, by which a prediction misses counts against commands.
-  double counts_misfit(const Predicted& predicted) const;
-  /// The same of a fit beside the nuisances, with their cost: a lag that all runs share is one surprise, not one a run.
+  /// Sum of squares, in standard deviations, by which a fit misses counts against commands beside the nuisances, with
+  /// their cost: a lag that all runs share is one surprise, not one a run.
   double counts_misfit(const Fit& fit) const;
   double count_rows() const;
   /// The part of it that is how the robot was driven and read (recording/command_features.h).
@@ -218,8 +217,9 @@ class Model {
   void observe();
   std::vector<Eigen::MatrixXd> products_of_nuisances() const;
   double roughness_under(const std::vector<Effect>& effects) const;
-  CountsSd counts_sd(std::size_t run, bool alone) const;
-  Eigen::VectorXd feature_rows(std::size_t run, const Predicted& a, const Predicted& b, bool alone) const;
+  CountsSd counts_sd(std::size_t run) const;
+  CountsColumns alike_in_counts(std::size_t run) const;
+  Eigen::VectorXd feature_rows(std::size_t run, const Predicted& a, const Predicted& b) const;
   Linearisation linearised(const Fit& fit) const;
   void take_derivatives(const Fit& at, Descent& d) const;
   Eigen::VectorXd solve(Fit& at, const std::vector<std::size_t>& runs, const Descent& d) const;

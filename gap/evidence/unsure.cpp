@@ -142,7 +142,7 @@ Model Model::unsure_of(const Fit& fit, const ErrorsOf& errors) const {
       const Impulses3 added = is_commanded_motion(effect) ? motion_errors(standing, nominal_.tracks[r])
                                                           : motion_errors(nominal_.tracks[r], with.tracks[r]);
       add_effect(unsure, i, r, filters_[r], parts, added, errors(effect).motion, run);
-      in_counts.col(unsure.counts + i) = feature_rows(r, with, without_effects_, false);
+      in_counts.col(unsure.counts + i) = feature_rows(r, with, without_effects_);
     }
     add_clock(unsure, r, campaign_->part_of[r], filters_[r], moved.velocity[r], run);
     model.filters_[r] = TrackFilter(nominal_.tracks[r], nominal_.rolled_m[r], noise(r), nominal_.seen[r],

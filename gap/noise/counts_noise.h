@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "gap/replay/command_response.h"
@@ -8,6 +9,10 @@
 #include "recording/recording.h"
 
 namespace umbsim::gap {
+
+/// With what counts against commands are measured in a run, standard deviations: left gain, right gain, lag (s), speed
+/// along the cosine and the sine of the heading (rad/s). Zeros where they are not known.
+using CountsSd = Eigen::Matrix<double, 5, 1>;
 
 /// Standard deviations with which command features are measured. What keeps a robot on its course makes up for motors
 /// that lag: its commands rise more steeply than was asked for, and say the less of the commanded motion the more

@@ -9,10 +9,10 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr int kCommon = 5;  // creep, slip, gains (2), lag: of the robot
+constexpr int kCommon = 8;  // creep, slip, CountsColumns: of the robot
 constexpr int kCreepColumn = 0;
 constexpr int kSlipColumn = 1;
-constexpr int kCountsColumn = 2;  // the first of gains and lag
+constexpr int kCountsColumn = 2;  // the first of these
 constexpr int kPerTracker = 4;    // marker (2), clock, frame: of each recording
 constexpr int kPerGroup = 7;      // legs, turns in place, rolling turns, heading and sideways along legs, leads (2)
 constexpr int kLeads = 5;         // the first of these
@@ -42,8 +42,7 @@ struct Layout {
 
 Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
   Eigen::VectorXd sd(layout.size());
-  const double gain = layout.any_free() ? s.real_gain : s.engine_gain;
-  sd.head(kCommon) << s.creep_across, 1, gain, gain, s.lag_s;
+  sd.head(kCommon) << s.creep_across, 1, s.engine_gain, s.wheel_gain, s.lag_s, s.servo_s, s.course_gain, s.course_gain;
   for (std::size_t t = 0; t < layout.trackers.size(); ++t) {
     // A truth without noise is a simulator's.
     const double frame = layout.trackers[t]->truth_heading_sd_rad > 0 ? s.frame_rad : 0;
@@ -146,14 +145,13 @@ Scatter between_engines(Scatter scatter) {
   scatter.turn_scale = 9e-4;
   scatter.slip_share = 1;
   scatter.lead_s = 0.015;
-  scatter.engine_gain = 1e-3;
   return scatter;
 }
 
 bool tracker_is_free(const Recording& recording) { return recording.truth_heading_sd_rad > 0.001; }
 
 Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFilter>& filters, const Scatter& scatter,
-                         const Drive& drive, double floor_m, int more_rows, const std::vector<CountsSd>& counts) {
+                         const Drive& drive, double floor_m, const std::vector<CountsColumns>& counts) {
   const Layout layout(nominal);
   const RunGroups& groups = layout.groups;
   Nuisances n;
@@ -196,11 +194,10 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
     const auto impulses = group_impulses(nominal, r);
     const Eigen::Index first = layout.group(groups.group_of[r]);
     for (int i = 0; i < kPerGroup; ++i) raw.col(first + i) = filters[r].propagate(impulses[std::size_t(i)]);
+    const int more_rows = int(counts[r].rows());
     n.shared.push_back(whitened(filters[r], raw, more_rows));
+    n.shared.back().block(3 * samples, kCountsColumn, more_rows, counts[r].cols()) = counts[r];
     n.tracks.push_back(std::move(raw));
-    for (Eigen::Index i = 0; i < kCommon - kCountsColumn; ++i) {
-      if (counts[r][i] > 0) n.shared.back()(3 * samples + i, kCountsColumn + i) = 1 / counts[r][i];
-    }
     const bool is_free = tracker_is_free(*nominal.origin[r]);
     const double radius = is_free ? scatter.real_radius : scatter.radius;
     n.own_sd.push_back(

@@ -30,12 +30,13 @@ struct Scatter {
   double creep_across = 0.03;    ///< sideways creep of the tyres
   double slip_share = 0.2;       ///< displacement by slip under jolts, in noise floors
   double gain = 4e-4;            ///< of counts over commands
-  double engine_gain = 0;        ///< of the same, alike in all runs: servos droop under their load
-  double real_gain = 1e-3;       ///< the same where the tracker is free: a real robot's servos do
-  double lag_s = 0.006;          ///< of counts behind commands, alike in all runs
-  double run_lag_s = 0.003;      ///< the same from run to run
-  double counts_lag_s = 0.010;   ///< the same of any run, where counts alone are judged
-  double same_engine = 0.1;      ///< share of what engines differ by that is left where both are the same
+  double engine_gain = 3e-3;     ///< of the same, alike in all runs and in both wheels: servos droop under their load
+  double wheel_gain = 7e-4;      ///< of the same, of one wheel against the other
+  double course_gain = 1.5e-3;  ///< of the same as the heading from the start goes, cosine and sine, mirrored cw to ccw
+  double lag_s = 0.02;          ///< of counts behind commands, alike in all runs: no servo follows at once
+  double servo_s = 0.02;        ///< time constant of servos that give way under their load
+  double run_lag_s = 0.003;     ///< the same from run to run
+  double same_engine = 0.1;     ///< share of what engines differ by that is left where both are the same
 };
 
 /// The same where another engine is known to have made the runs, as measured between four of them (docs/worlds.md).
@@ -66,14 +67,14 @@ using Drive = std::function<std::vector<std::vector<Pose2>>(const std::vector<Ef
 /// headings as well as a simulated one.
 bool tracker_is_free(const Recording& recording);
 
-/// With what counts against commands are measured in a run, standard deviations: left gain, right gain, lag (s), speed
-/// along the cosine and the sine of the heading (rad/s). Zeros where they are not known.
-using CountsSd = Eigen::Matrix<double, 5, 1>;
+/// Of counts against commands, per unit of what may be alike in all runs: a gain of both wheels, one of the left wheel
+/// against the right one, a lag (s), a servo's time constant (s), a gain that goes with the cosine and one with the
+/// sine of the heading from the start, to the side of the turns. Rows in standard deviations.
+using CountsColumns = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 
-/// `floor_m`: the noise floor, for how much slip is nobody's. `more_rows`: below each column, zeros but for the gains
-/// and the lag of counts in the first three of these. `counts`: of each run.
+/// `floor_m`: the noise floor, for how much slip is nobody's. `counts`: of each run, below its tracks' rows.
 Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFilter>& filters, const Scatter& scatter,
-                         const Drive& drive, double floor_m, int more_rows, const std::vector<CountsSd>& counts);
+                         const Drive& drive, double floor_m, const std::vector<CountsColumns>& counts);
 
 /// Whitens them anew, with other filters.
 void whiten_again(Nuisances& nuisances, const NominalReplay& nominal, const std::vector<TrackFilter>& filters);

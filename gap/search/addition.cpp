@@ -66,8 +66,7 @@ bool stays_beside(const Model& model, const Fit& base, const Fit& fit, const Nee
 }  // namespace
 
 bool contradicted(const Model& model, const Fit& base, const Fit& fit) {
-  return fit.log_chance < -kContradicted / 2 ||
-         model.counts_misfit(fit.predicted) > model.counts_misfit(base.predicted) + kContradicted;
+  return fit.log_chance < -kContradicted / 2 || model.counts_misfit(fit) > model.counts_misfit(base) + kContradicted;
 }
 
 double lookalike_share(const Fit& base, const Fit& fit) {
@@ -91,8 +90,8 @@ double seen_between(const Model& model, const Fit& base, const Fit& fit) {
 Needed addition_needed(const Model& model, const Fit& base, const Fit& none, const Thresholds& t) {
   const double gained = std::max(0.0, base.log_evidence - none.log_evidence);
   const double left = excess(model, base);
-  const double counts_left = model.counts_misfit(base.predicted);
-  const double counts_gained = std::max(0.0, model.counts_misfit(none.predicted) - counts_left) / 2;
+  const double counts_left = model.counts_misfit(base);
+  const double counts_gained = std::max(0.0, model.counts_misfit(none) - counts_left) / 2;
   // Where much is left the noise model is too narrow for what it is asked: evidence in units of what is left.
   const double spread = std::max(1.0, base.misfit / model.rows() - t.noise_error);
   const double share = t.addition_share * gained;
@@ -121,7 +120,7 @@ bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& nee
   const bool dear = leaves_most || adds_local(base, fit);
   if (gain < extra * lookalike_share(base, fit) * needed.gained) return false;
   if (gain >= extra * (dear ? needed.local : needed.everywhere)) return stays_beside(model, base, fit, needed, extra);
-  const double counts = (model.counts_misfit(base.predicted) - model.counts_misfit(fit.predicted)) / 2;
+  const double counts = (model.counts_misfit(base) - model.counts_misfit(fit)) / 2;
   // What tracks speak for mostly they must pay for, unless most of what counts show is at stake.
   const bool by_counts = counts > gain / 2 || counts >= extra * kPlain * needed.counts;
   return by_counts && std::min(gain, counts) >= extra * needed.counts && stays_beside(model, base, fit, needed, extra);

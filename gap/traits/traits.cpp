@@ -37,8 +37,8 @@ const std::vector<Traits>& table() {
       {"slippery_patch", "place", kOfAPlace | kDisc | kThreshold, kPlace},
       {"bump", "place", kOfAPlace},
       {"uneven_floor", "place"},
-      {"floor_slope", "world_direction"},
-      {"carpet_drift", "world_direction"},
+      {"floor_slope", "world_direction", kOfADirection},
+      {"carpet_drift", "world_direction", kOfADirection},
       {"push", "one_run", kOfAPlace, kPlace},
       {"wheel_lift", "place", kOfAPlace | kDisc, kPlace},
   };

@@ -33,6 +33,7 @@ enum Is : unsigned {
   kLikeADimension = 256,  ///< does what a dimension does, and engines differ in it by no more
   kThreshold = 512,       ///< nothing, until it lets go: tried at several strengths
   kFromWhatShows = 1024,  ///< linear only about what the counts show
+  kOfADirection = 2048,   ///< along one direction of the world
 };
 
 /// Where the commands and counts show an effect: a number of CommandFeatures, and what it then lies between.
@@ -67,6 +68,8 @@ inline bool is(const std::string& effect, Is what) { return (traits_of(effect).i
 inline bool is_kinematic(const std::string& effect) { return is(effect, kKinematic); }
 inline bool is_dimension(const std::string& effect) { return is(effect, kDimension); }
 inline bool is_commanded_motion(const std::string& effect) { return is(effect, kCommandedMotion); }
+/// Whether the world decides where it acts, or which way. An engine's contacts are the same everywhere and all round.
+inline bool is_of_the_world(const std::string& effect) { return is(effect, kOfAPlace) || is(effect, kOfADirection); }
 
 /// Whether counts against commands, or how the robot was driven and read, show the effect; others only move the robot.
 bool shows_in_counts(const EffectInfo& info);

@@ -1,4 +1,4 @@
-// What a tracker does to the diagnosis: mounted by hand, noisy, and with counts that all lag alike.
+// What a tracker does to the diagnosis: mounted by hand, and noisy.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -93,20 +93,6 @@ TEST(TotalStation, HeadingThatNobodySaw) {
   const Subject p(all);
   EXPECT_NEAR(p.model.noise().heading_sd_rad, M_PI, 1e-3);
   EXPECT_EQ(first_of(p.diagnosed()), "wheel_radius_difference");
-}
-
-// One lag of all runs is one surprise, not one for each run: servos of another make lag by some more milliseconds.
-TEST(CountsThatLag, AreOneSurprise) {
-  constexpr double kLag_s = 0.03;
-  const Subject p(campaign({effect("motor_response", {{"lag_s", kLag_s}})}, 56));
-  const Fit none = p.model.none();
-  const double each = p.model.counts_misfit(none.predicted), once = p.model.counts_misfit(none);
-  const double prior = std::pow(kLag_s / Scatter{}.lag_s, 2);
-  std::cout << fmt::format("squares: {:.0f}, of each run {:.0f}; {:.0f} of the lag, {:.0f} rows\n", once, each, prior,
-                           p.model.count_rows());
-  EXPECT_GT(once, 0.8 * prior);
-  EXPECT_LT(once, prior + p.model.count_rows());
-  EXPECT_GT(each, 8 * std::pow(kLag_s / Scatter{}.counts_lag_s, 2));
 }
 
 }  // namespace
