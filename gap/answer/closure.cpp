@@ -40,8 +40,8 @@ std::vector<Pose2> driven(const Model& model, std::size_t run, const std::vector
 
 }  // namespace
 
-double most_hidden_mm(const Model& model) {
-  const double sum_m2 = most_by_noise(model.noise_m2(true));
+double most_hidden_mm(const Model& model, bool other_engine) {
+  const double sum_m2 = most_by_noise(model.noise_m2(other_engine));
   return 1000 * std::sqrt(sum_m2 / double(model.all_runs().size()));
 }
 

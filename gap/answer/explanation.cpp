@@ -160,13 +160,10 @@ void leave_the_ordinary_out(const Context& w, Fit& best, Diagnosis& d) {
 
 // Whether another engine made recordings whose tracks stray by no more than noise makes them. What contacts do is no
 // gap then: they differ from engine to engine.
-bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
-  if (w.model.taken_for_another_engines()) {
-    const double before_mm = in_sample_error_mm(w.model, w.none);
-    if (before_mm > most_hidden_mm(w.model)) return false;
-  } else if (w.model.same_engine(fit) || closure.before_mm == 0 || closure.before_mm > closure.most_noise_mm) {
-    return false;
-  }
+bool hidden_in_noise(const Context& w, const Fit& fit) {
+  const bool another = w.model.taken_for_another_engines();
+  if (!another && w.model.same_engine(fit)) return false;
+  if (in_sample_error_mm(w.model, w.none) > most_hidden_mm(w.model, another)) return false;
   // What comes again wherever runs pass the same places is the floor's.
   return !w.may_name(kUnevenFloor) || !may_be_uneven_floor(w.model, w.none);
 }
@@ -225,7 +222,7 @@ void detect(const Context& w, Diagnosis& d) {
 void explain(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis& d) {
   const Thresholds& t = w.thresholds;
   d.closure = held_out_closure(w.model, best);
-  const bool hidden = hidden_in_noise(w, best, d.closure);
+  const bool hidden = hidden_in_noise(w, best);
   if (hidden && !name_beside_noise(w, best, d)) return;
   const bool unknown = !hidden && !worth_more_than_rest(w.model, best, d.closure) &&
                        is_unknown(left, w.left_by_none, w.explained_by(best), w.model.contacts_differ(best), t) &&

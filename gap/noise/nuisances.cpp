@@ -61,6 +61,7 @@ Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
 // The marker, the clock and the frame stay what they are, whoever made the recording.
 Eigen::VectorXd of_same_engine(Eigen::VectorXd sd, const Layout& layout, const Scatter& s) {
   sd.head(layout.tracker(0)) *= s.same_engine;
+  sd.segment(kCountsColumn, CountsColumns::ColsAtCompileTime) *= s.same_servos / s.same_engine;
   return sd;
 }
 
@@ -142,6 +143,7 @@ Eigen::MatrixXd whitened(const TrackFilter& filter, const Eigen::MatrixXd& raw, 
 }  // namespace
 
 Scatter between_engines(Scatter scatter) {
+  scatter.leg_scale = 3e-4;
   scatter.turn_scale = 9e-4;
   scatter.slip_share = 1;
   scatter.lead_s = 0.015;

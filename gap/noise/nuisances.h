@@ -36,7 +36,8 @@ struct Scatter {
   double lag_s = 0.02;          ///< of counts behind commands, alike in all runs: no servo follows at once
   double servo_s = 0.02;        ///< time constant of servos that give way under their load
   double run_lag_s = 0.003;     ///< the same from run to run
-  double same_engine = 0.1;     ///< share of what engines differ by that is left where both are the same
+  double same_engine = 0.1;     ///< share of what engines differ by that is left where both are the same,
+  double same_servos = 0.03;    ///< and of what their servos do
 };
 
 /// The same where another engine is known to have made the runs, as measured between four of them (docs/worlds.md).
