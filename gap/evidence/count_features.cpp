@@ -41,7 +41,7 @@ Eigen::VectorXd Model::feature_rows(std::size_t run, const Predicted& a, const P
   return rows;
 }
 
-// A servo that holds its speed in proportion to its torque gives way under its load, which it is driven for.
+// A servo that holds its speed in proportion to its torque gives way under its load: the run is driven with one.
 CountsColumns Model::alike_in_counts(std::size_t run) const {
   CountsColumns columns = CountsColumns::Zero(kFeatureRows, CountsColumns::ColsAtCompileTime);
   const CommandResponse& nominal = without_effects_.counted[run];
