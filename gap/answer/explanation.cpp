@@ -160,10 +160,13 @@ void leave_the_ordinary_out(const Context& w, Fit& best, Diagnosis& d) {
 
 // Whether another engine made recordings whose tracks stray by no more than noise makes them. What contacts do is no
 // gap then: they differ from engine to engine.
-bool hidden_in_noise(const Context& w, const Fit& fit) {
+bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
   const bool another = w.model.taken_for_another_engines();
   if (!another && w.model.same_engine(fit)) return false;
-  if (in_sample_error_mm(w.model, w.none) > most_hidden_mm(w.model, another)) return false;
+  const double before_mm = in_sample_error_mm(w.model, w.none), after_mm = in_sample_error_mm(w.model, fit);
+  if (before_mm > most_hidden_mm(w.model, another)) return false;
+  // Where no run could be held out: noise is not explained by more than half.
+  if (!another && closure.before_mm == 0 && after_mm < before_mm / 2) return false;
   // What comes again wherever runs pass the same places is the floor's.
   return !w.may_name(kUnevenFloor) || !may_be_uneven_floor(w.model, w.none);
 }
@@ -222,7 +225,7 @@ void detect(const Context& w, Diagnosis& d) {
 void explain(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis& d) {
   const Thresholds& t = w.thresholds;
   d.closure = held_out_closure(w.model, best);
-  const bool hidden = hidden_in_noise(w, best);
+  const bool hidden = hidden_in_noise(w, best, d.closure);
   if (hidden && !name_beside_noise(w, best, d)) return;
   const bool unknown = !hidden && !worth_more_than_rest(w.model, best, d.closure) &&
                        is_unknown(left, w.left_by_none, w.explained_by(best), w.model.contacts_differ(best), t) &&
