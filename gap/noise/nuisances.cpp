@@ -143,7 +143,6 @@ Eigen::MatrixXd whitened(const TrackFilter& filter, const Eigen::MatrixXd& raw, 
 }  // namespace
 
 Scatter between_engines(Scatter scatter) {
-  scatter.leg_scale = 3e-4;
   scatter.turn_scale = 9e-4;
   scatter.slip_share = 1;
   scatter.lead_s = 0.015;
