@@ -58,10 +58,17 @@ Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
   return sd;
 }
 
+// Wheels that turn as they are told, as this engine's do: other engines can do that, too.
+Eigen::VectorXd with_exact_servos(Eigen::VectorXd sd, const Scatter& s) {
+  sd.segment(kCountsColumn, CountsColumns::ColsAtCompileTime) *= s.same_servos;
+  return sd;
+}
+
 // The marker, the clock and the frame stay what they are, whoever made the recording.
-Eigen::VectorXd of_same_engine(Eigen::VectorXd sd, const Layout& layout, const Scatter& s) {
-  sd.head(layout.tracker(0)) *= s.same_engine;
-  sd.segment(kCountsColumn, CountsColumns::ColsAtCompileTime) *= s.same_servos / s.same_engine;
+Eigen::VectorXd of_same_engine(const Eigen::VectorXd& usual, const Layout& layout, const Scatter& s) {
+  Eigen::VectorXd sd = with_exact_servos(usual, s);
+  sd.head(kCountsColumn) *= s.same_engine;
+  sd.segment(layout.group(0), layout.tracker(0) - layout.group(0)) *= s.same_engine;
   return sd;
 }
 
@@ -156,18 +163,20 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   const Layout layout(nominal);
   const RunGroups& groups = layout.groups;
   Nuisances n;
-  n.usual_sd = shared_sd(layout, scatter);
-  n.shared_sds = {n.usual_sd};
+  n.shared_sds = {shared_sd(layout, scatter)};
+  n.usual_sd = with_exact_servos(n.shared_sds.front(), scatter);
   if (std::any_of(layout.trackers.begin(), layout.trackers.end(), may_be_exact))
     n.shared_sds.push_back(with_exact_trackers(n.shared_sds.front(), layout, scatter));
   for (std::size_t t = 0; t < layout.trackers.size(); ++t) {
     if (may_be_exact(layout.trackers[t])) n.markers.push_back(layout.tracker(t));
   }
+  const std::size_t mounts = n.shared_sds.size();
+  for (std::size_t i = 0; i < mounts; ++i) n.shared_sds.push_back(with_exact_servos(n.shared_sds[i], scatter));
   n.of_another = n.shared_sds.size();
   n.engine_sd = Eigen::VectorXd::Zero(layout.size());
   n.engine_sd.head(layout.tracker(0)) = n.shared_sds.front().head(layout.tracker(0));
   n.unexplained_sd = Eigen::VectorXd::Zero(layout.size());
-  for (std::size_t i = 0; i < n.of_another && !layout.any_free(); ++i)
+  for (std::size_t i = 0; i < mounts && !layout.any_free(); ++i)
     n.shared_sds.push_back(of_same_engine(n.shared_sds[i], layout, scatter));
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
     const Eigen::Index first = layout.group(g);
@@ -227,7 +236,7 @@ void settle_trackers(Nuisances& n, const Scatter& s, const Eigen::VectorXd& mean
   std::vector<Eigen::VectorXd> left;
   for (std::size_t i = 1; i < n.shared_sds.size(); i += 2) left.push_back(std::move(n.shared_sds[i]));
   n.shared_sds = std::move(left);
-  n.of_another = 1;
+  n.of_another /= 2;
 }
 
 }  // namespace umbsim::gap

@@ -46,11 +46,11 @@ Scatter between_engines(Scatter scatter);
 /// Columns that are fitted always and credited to nobody. Per run, whitened; outer index: run.
 struct Nuisances {
   /// First `of_another`, if another engine, or a robot, made the recording: with a tracker that was mounted by hand
-  /// and, where its header does not speak against it, with an exact one. Then, if this engine made it, which runs show
-  /// by how little they stray.
+  /// and, where its header does not speak against it, with an exact one; both again with servos that turn as they are
+  /// told. Then, if this engine made it, which runs show by how little they stray.
   std::vector<Eigen::VectorXd> shared_sds;
   std::size_t of_another = 0;
-  Eigen::VectorXd usual_sd;           ///< the first of these
+  Eigen::VectorXd usual_sd;           ///< the first of these, with exact servos: runs are planned so
   std::vector<Eigen::Index> markers;  ///< of trackers that may be exact: first of two numbers, the point that each sees
   Eigen::VectorXd unexplained_sd;     ///< of the same numbers, if errors of no particular cause stood behind them
   std::vector<Eigen::MatrixXd> shared;  ///< one number for all runs that it acts in
