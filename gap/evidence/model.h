@@ -118,7 +118,7 @@ class Model {
   /// That each motor moves as the robot speeds up, at the wheel.
   double motor_inertia_kgm2() const;
   int nuisances() const { return int(nuisance_sd().size()); }
-  /// Of another engine's recording, as long as nothing is known of its tracker.
+  /// Of another engine's recording with exact servos, as long as nothing is known of its tracker.
   const Eigen::VectorXd& nuisance_sd() const { return nuisances_.usual_sd; }
   /// What it may be (Nuisances).
   const std::vector<Eigen::VectorXd>& nuisance_sds() const { return nuisances_.shared_sds; }

@@ -74,7 +74,10 @@ std::map<std::string, std::vector<ServoResponse>> servo_responses(const TrialFol
     const bool counts = std::any_of(answer.effects.begin(), answer.effects.end(),
                                     [](const auto& effect) { return may_show_in_counts(effect.first); });
     if (counts) continue;
-    cases.push_back({name, answers.at("cases").at(name).at("world").at("engine")});
+    const Json& said = answers.at("cases").at(name);
+    if (!said.contains("world"))
+      throw InputError(folder.answers().string() + ": case " + name + " does not say in which world it was drawn");
+    cases.push_back({name, said.at("world").at("engine")});
   }
   std::map<std::string, std::vector<ServoResponse>> by_engine;
   std::vector<std::optional<ServoResponse>> found(cases.size());
