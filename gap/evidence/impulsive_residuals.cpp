@@ -4,50 +4,14 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <set>
 
 namespace umbsim::gap {
 namespace {
 
-constexpr std::size_t kStride = 2;                   // truth samples between two candidates
 const Eigen::Vector3d kImpulseSd(0.02, 0.02, 0.05);  // prior size: metres, metres, radians
 constexpr double kLostSd_m = 0.003;
-constexpr double kWheelbase_m = 0.36;  // of a robot to which these lengths belong; others in proportion:
-constexpr double kSpot_m = 0.03;
-constexpr double kReach_m = 0.05;  // half length of what lies across the path
-constexpr double kApart_m = 0.3;   // between places that are told apart
-
-// Wheel positions at each candidate of a run.
-Pose2 wheel_place(const Pose2& X_WB, int wheel, double wheelbase_m) {
-  return X_WB * Pose2{0, (wheel == 0 ? 0.5 : -0.5) * wheelbase_m, 0};
-}
-
-// Way that a wheel has rolled until each sample of a run's truth, as the counts say: it does not grow while a robot
-// stands and a noisy tracker sees it here and there.
-std::vector<double> rolled_m(const Model& model, std::size_t r, int wheel) {
-  const std::vector<Pose2>& track = model.nominal().tracks[r];
-  std::vector<double> way{0};
-  for (std::size_t k = 1; k < track.size(); ++k) {
-    const double b_m = model.recording().robot.wheelbase_m;
-    const Pose2 a = wheel_place(track[k - 1], wheel, b_m), b = wheel_place(track[k], wheel, b_m);
-    way.push_back(way.back() + std::hypot(b.x_m - a.x_m, b.y_m - a.y_m));
-  }
-  return way;
-}
-
-// Whether the robot goes straight, at each sample of a run's truth.
-std::vector<bool> goes_straight(const Model& model, std::size_t r) {
-  std::vector<bool> straight;
-  for (const TruthSample& sample : model.recording().runs[r].truth) {
-    const auto& all = model.stretches(r);
-    straight.push_back(std::any_of(all.begin(), all.end(), [&](const Stretch& s) {
-      return s.kind == Stretch::Kind::leg && s.start_s <= sample.time_s && sample.time_s <= s.end_s;
-    }));
-  }
-  return straight;
-}
+constexpr double kApart_m = 0.3;  // of a robot with a wheelbase of 0.36 m, between places that are told apart
 
 // Runs in the order of how much each adds to what all show; those that speak against it are left out.
 std::vector<std::size_t> most_shown(const std::vector<double>& by_run, double sum) {
@@ -83,119 +47,33 @@ std::vector<Impulse> moments_of(const Products& all) {
   return moments;
 }
 
-// Where the wheels of each run were, and how far they had rolled.
-struct Wheels {
-  std::vector<std::array<std::vector<Pose2>, 2>> at;
-  std::vector<std::array<std::vector<double>, 2>> rolled_m;
-  std::vector<std::vector<bool>> straight;
-};
-
-Wheels wheels_of(const Model& model) {
-  const Recording& recording = model.recording();
-  Wheels wheels{decltype(Wheels::at)(recording.runs.size()), decltype(Wheels::rolled_m)(recording.runs.size()), {}};
-  for (std::size_t r = 0; r < recording.runs.size(); ++r) {
-    wheels.straight.push_back(goes_straight(model, r));
-    // Where the tracker saw the robot; between end points, where the wheels believed to be.
-    const bool tracked = model.campaign().of(r).truth_kind != "endpoints";
-    for (int w = 0; w < 2; ++w) {
-      wheels.rolled_m[r][std::size_t(w)] = rolled_m(model, r, w);
-      for (std::size_t k = 0; k < recording.runs[r].truth.size(); ++k) {
-        const Pose2& X_WB = tracked ? recording.runs[r].truth[k].X_WB : model.nominal().tracks[r][k];
-        wheels.at[r][std::size_t(w)].push_back(wheel_place(X_WB, w, recording.robot.wheelbase_m));
-      }
-    }
-  }
-  return wheels;
-}
-
-// Of the robot's size.
-double length_scale(const Model& model) {
-  return std::clamp(model.recording().robot.wheelbase_m / kWheelbase_m, 0.3, 2.0);
-}
-
-// Wheel tracks of the first run of every condition and direction, each spot once.
-std::vector<PlaceImpulse> candidates(const Model& model, const Wheels& wheels) {
-  const Recording& recording = model.recording();
-  const double spot_m = length_scale(model) * kSpot_m;
-  std::vector<PlaceImpulse> places;
-  std::vector<std::string> seen;
-  std::set<std::pair<long, long>> spots;
-  for (std::size_t r = 0; r < recording.runs.size(); ++r) {
-    const std::string key = model.nominal().conditions[r] + recording.runs[r].direction;
-    if (std::find(seen.begin(), seen.end(), key) != seen.end()) continue;
-    seen.push_back(key);
-    for (std::size_t k = 1; k < model.filter(r).samples(); k += kStride) {
-      for (int w = 0; w < 2; ++w) {
-        const Pose2& at = wheels.at[r][std::size_t(w)][k];
-        if (!spots.insert({std::lround(at.x_m / spot_m), std::lround(at.y_m / spot_m)}).second) continue;
-        places.push_back({at.x_m, at.y_m, at.theta_rad, w, 0, 0, 0, {}});
-      }
-    }
-  }
-  return places;
-}
-
-// The nearest approach of a wheel that comes by a place.
-struct Pass {
-  std::size_t sample = 0;
-  double apart_m2 = 0;
-};
-
-// Those of one wheel in a run. A pass is over when the wheel has rolled on beyond its reach.
-std::vector<Pass> passes_of(const PlaceImpulse& place, const std::vector<Pose2>& wheel,
-                            const std::vector<double>& rolled_m, double reach_m) {
-  std::vector<Pass> passes;
-  const Pass none{0, reach_m * reach_m};
-  Pass nearest = none;
-  const auto take = [&] {
-    if (nearest.apart_m2 < none.apart_m2) passes.push_back(nearest);
-    nearest.apart_m2 = none.apart_m2;
-  };
-  for (std::size_t k = 1; k < wheel.size(); ++k) {
-    const double dx = wheel[k].x_m - place.x_m;
-    const double dy = wheel[k].y_m - place.y_m;
-    const double d = dx * dx + dy * dy;
-    if (d < nearest.apart_m2)
-      nearest = {k, d};
-    else if (rolled_m[k] - rolled_m[nearest.sample] > 2 * reach_m)
-      take();
-  }
-  take();
-  return passes;
-}
-
 // What all passes of a place show together.
-void weigh(const Model& model, const Products& all, const Wheels& wheels, PlaceImpulse& place) {
-  const double b_m = model.recording().robot.wheelbase_m;
+PlaceImpulse weighed(const PassedPlace& at, const Products& all, double wheelbase_m) {
+  PlaceImpulse place{at.x_m, at.y_m, at.heading_rad, at.wheel, 0, int(at.passes.size()), 0, {}};
   double zy = 0;
   double zz = 0;
-  double nearest_leg = 1e300;
   std::vector<double> shown(all.size());
-  for (std::size_t r = 0; r < all.size(); ++r) {
-    for (std::size_t w = 0; w < 2; ++w) {
-      const double reach_m = length_scale(model) * kReach_m;
-      const Eigen::Vector3d lost(-0.5, 0, (w == 0 ? 1 : -1) / b_m);
-      for (const Pass& pass : passes_of(place, wheels.at[r][w], wheels.rolled_m[r][w], reach_m)) {
-        const std::size_t at = pass.sample;
-        const double seen_here = lost.dot(all[r].with_column[at]);
-        zy += seen_here;
-        shown[r] += seen_here;
-        zz += lost.dot(all[r].with_itself[at] * lost);
-        ++place.passes;
-        // What lies across the path lies across that of a leg, where there is one: in a corner headings are many.
-        if (!wheels.straight[r][at] || pass.apart_m2 >= nearest_leg) continue;
-        nearest_leg = pass.apart_m2;
-        place.heading_rad = wheels.at[r][w][at].theta_rad;
-      }
-    }
+  for (const WheelPass& pass : at.passes) {
+    const Eigen::Vector3d lost(-0.5, 0, (pass.wheel == 0 ? 1 : -1) / wheelbase_m);
+    const double seen_here = lost.dot(all[pass.run].with_column[pass.sample]);
+    zy += seen_here;
+    shown[pass.run] += seen_here;
+    zz += lost.dot(all[pass.run].with_itself[pass.sample] * lost);
   }
   const double M = 1 + kLostSd_m * kLostSd_m * zz;
   place.lost_m = kLostSd_m * kLostSd_m * zy / M;
   place.gain = 0.5 * kLostSd_m * kLostSd_m * zy * zy / M - 0.5 * std::log(M);
   place.shown_by = most_shown(shown, zy);
+  return place;
 }
 
 }  // namespace
+
+const std::vector<PassedPlace>& Model::passed_places() const {
+  if (!passed_places_)
+    passed_places_ = std::make_shared<const std::vector<PassedPlace>>(gap::passed_places(nominal_, stretches_));
+  return *passed_places_;
+}
 
 Impulses find_impulses(const Model& model, const Fit& fit) {
   const std::vector<Eigen::VectorXd> left = model.left_over(fit);
@@ -206,13 +84,13 @@ Impulses find_impulses(const Model& model, const Fit& fit) {
   // Several recordings need not be of one floor.
   if (model.campaign().several()) return impulses;
 
-  const Wheels wheels = wheels_of(model);
-  std::vector<PlaceImpulse> places = candidates(model, wheels);
-  tbb::parallel_for(std::size_t(0), places.size(), [&](std::size_t c) { weigh(model, all, wheels, places[c]); });
+  const RecordedRobot& robot = model.recording().robot;
+  std::vector<PlaceImpulse> places;
+  for (const PassedPlace& at : model.passed_places()) places.push_back(weighed(at, all, robot.wheelbase_m));
   std::sort(places.begin(), places.end(), [](const PlaceImpulse& a, const PlaceImpulse& b) { return a.gain > b.gain; });
   for (const PlaceImpulse& p : places) {
     const bool near = std::any_of(impulses.places.begin(), impulses.places.end(), [&](const PlaceImpulse& q) {
-      return std::hypot(p.x_m - q.x_m, p.y_m - q.y_m) < length_scale(model) * kApart_m;
+      return std::hypot(p.x_m - q.x_m, p.y_m - q.y_m) < length_scale(robot) * kApart_m;
     });
     if (!near) impulses.places.push_back(p);
     if (impulses.places.size() == 5) break;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,11 +14,11 @@
 #include "gap/noise/track_filter.h"
 #include "gap/replay/command_response.h"
 #include "gap/replay/nominal_replay.h"
+#include "gap/replay/passed_places.h"
 #include "gap/replay/simulator.h"
 #include "gap/traits/signature_errors.h"
 #include "recording/command_features.h"
 #include "recording/recording.h"
-#include "recording/stretches.h"
 
 namespace umbsim::gap {
 
@@ -110,10 +109,10 @@ class Model {
   double noise_floor_m() const { return noise_floor_m_; }
   bool replicated() const { return replicated_; }
   const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }
+  const std::vector<PassedPlace>& passed_places() const;  ///< of one recording; found once
   const TrackFilter& filter(std::size_t run) const { return filters_[run]; }
   const CommandFeatures& command_features() const { return measured_.command_features; }
-  /// Of the drive wheels; 0: not known.
-  double wheel_width_m() const { return simulator_.wheel_width_m; }
+  double wheel_width_m() const { return simulator_.wheel_width_m; }  ///< of the drive wheels; 0: not known
   double mass_kg() const { return simulator_.mass_kg; }
   /// That each motor moves as the robot speeds up, at the wheel.
   double motor_inertia_kgm2() const;
@@ -244,6 +243,7 @@ class Model {
   Nuisances nuisances_;
   std::vector<Eigen::MatrixXd> products_of_nuisances_;  ///< by run: shared, then the run's own
   mutable double simulated_s_ = 0;
+  mutable std::shared_ptr<const std::vector<PassedPlace>> passed_places_;
   mutable std::array<std::shared_ptr<const std::vector<std::vector<double>>>, 2> noise_m2_;  ///< as it was drawn
 };
 
