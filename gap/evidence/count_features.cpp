@@ -61,12 +61,10 @@ CountsColumns Model::alike_in_counts(std::size_t run) const {
   late.lag_s += 1;
   columns.leftCols<3>() << per_unit(gain, 1), per_unit(wheel, 1), per_unit(late, 1);
   // What a driver does along its course looks like a slope in one run, and is mirrored where the course is.
-  const double start_rad = recording().runs[run].truth.front().X_WB.theta_rad;
-  const double side = recording().runs[run].direction == "cw" ? -1 : 1;
-  const Eigen::Vector2d ahead(std::cos(start_rad), std::sin(start_rad));
+  const Eigen::Matrix2d axes = course_axes(recording().runs[run]);
   CommandResponse along = nominal, across = nominal;
-  along.by_heading_radps += nominal.speed_radps * ahead;
-  across.by_heading_radps += nominal.speed_radps * side * Eigen::Vector2d(-ahead[1], ahead[0]);
+  along.by_heading_radps += nominal.speed_radps * axes.col(0);
+  across.by_heading_radps += nominal.speed_radps * axes.col(1);
   columns.rightCols<2>() << per_unit(along, 1), per_unit(across, 1);
   if (mass_kg() == 0) return columns;
   Effect servo = neutral_effect(find_effect("motor_response"));

@@ -84,4 +84,13 @@ std::vector<std::array<double, 2>> counted_rad(const RecordedRun& run, const Rec
   return counts;
 }
 
+Eigen::Matrix2d course_axes(const RecordedRun& run) {
+  const double start_rad = run.truth.front().X_WB.theta_rad;
+  const double side = run.direction == "cw" ? -1 : 1;
+  Eigen::Matrix2d axes;
+  axes << std::cos(start_rad), -side * std::sin(start_rad),  //
+      std::sin(start_rad), side * std::cos(start_rad);
+  return axes;
+}
+
 }  // namespace umbsim::gap

@@ -27,6 +27,10 @@ struct CommandResponse {
 CommandResponse command_response(const RecordedRun& run, const RecordedRobot& robot,
                                  const std::vector<std::array<double, 2>>& counts_rad, double step_rad);
 
+/// Unit vectors (columns) along the course of a run, its heading at the start, and across it, to the side of its turns:
+/// what a driver does along a course is mirrored from cw to ccw, what the world does is not.
+Eigen::Matrix2d course_axes(const RecordedRun& run);
+
 /// The recorded counts as angles.
 std::vector<std::array<double, 2>> counted_rad(const RecordedRun& run, const RecordedRobot& robot);
 

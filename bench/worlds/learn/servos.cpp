@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 
@@ -38,33 +39,32 @@ std::optional<ServoResponse> response_of(const GapRecordings& recordings, const 
   const gap::CommandResponse foretold = response(simulator.commands(r, {}));
   if (!measured.known || !foretold.known) return {};
   const double left = measured.left_gain - foretold.left_gain, right = measured.right_gain - foretold.right_gain;
-  const double start_rad = run.truth.front().X_WB.theta_rad;
-  const Eigen::Vector2d ahead(std::cos(start_rad), std::sin(start_rad)), aside(-ahead[1], ahead[0]);
-  const Eigen::Vector2d faster = (measured.by_heading_radps - foretold.by_heading_radps) / foretold.speed_radps;
-  return ServoResponse{(left + right) / 2, left - right, measured.lag_s - foretold.lag_s, faster.dot(ahead),
-                       (run.direction == "cw" ? -1 : 1) * faster.dot(aside)};
+  ServoResponse response_beyond;
+  response_beyond << (left + right) / 2, left - right, measured.lag_s - foretold.lag_s,
+      gap::course_axes(run).transpose() * (measured.by_heading_radps - foretold.by_heading_radps) /
+          foretold.speed_radps;
+  return response_beyond;
 }
 
 // Mean of the runs of a case; none where it has no commands.
 std::optional<ServoResponse> response_of(const std::string& folder) {
   const GapRecordings recordings({folder}, "");
   const gap::Simulator simulator = recordings.simulator(true);
-  ServoResponse mean;
+  ServoResponse mean = ServoResponse::Zero();
   double runs = 0;
   for (std::size_t r = 0; r < recordings.campaign().all.runs.size(); ++r) {
     const auto response = response_of(recordings, simulator, r);
     if (!response) continue;
     runs += 1;
-    for (const auto of : kServoFigures) mean.*of += (*response).*of;
+    mean += *response;
   }
   if (runs == 0) return {};
-  for (const auto of : kServoFigures) mean.*of /= runs;
-  return mean;
+  return ServoResponse(mean / runs);
 }
 
 }  // namespace
 
-std::map<std::string, std::vector<ServoResponse>> servo_responses(const TrialFolder& folder) {
+ServoResponses servo_responses(const TrialFolder& folder) {
   struct Case {
     std::string name, engine;
   };
@@ -79,21 +79,22 @@ std::map<std::string, std::vector<ServoResponse>> servo_responses(const TrialFol
       throw InputError(folder.answers().string() + ": case " + name + " does not say in which world it was drawn");
     cases.push_back({name, said.at("world").at("engine")});
   }
-  std::map<std::string, std::vector<ServoResponse>> by_engine;
   std::vector<std::optional<ServoResponse>> found(cases.size());
+  std::atomic<int> refused = 0;
   Progress progress("counts against commands", int(cases.size()));
   tbb::parallel_for(std::size_t(0), cases.size(), [&](std::size_t i) {
     try {
       found[i] = response_of((folder.recordings() / cases[i].name).string());
     } catch (const InputError&) {
-      // A diagnosis refuses this recording, such as for a gap in its truth.
+      ++refused;
     }
     progress.step();
   });
+  ServoResponses responses{{}, refused};
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (found[i]) by_engine[cases[i].engine].push_back(*found[i]);
+    if (found[i]) responses.by_engine[cases[i].engine].push_back(*found[i]);
   }
-  return by_engine;
+  return responses;
 }
 
 }  // namespace umbsim::worlds
