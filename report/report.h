@@ -13,7 +13,7 @@ enum class PageKind { run, recording, sweep, gap, calibration, explanation, plan
 bool has_pages();
 
 /// One self-contained HTML page that opens offline. `data` is what the page shows, an object, with at least `title` and
-/// `version`; every other part may be missing: the page then leaves it out (docs/pages.md).
+/// `version`; every other part may be missing: the page then leaves it out.
 std::string render_report(PageKind kind, const nlohmann::ordered_json& data);
 
 /// The data of a page that render_report() made, with its `page` (the kind); none if the text is no such page.

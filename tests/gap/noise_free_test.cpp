@@ -122,7 +122,7 @@ std::string name_of(const ::testing::TestParamInfo<NoiseFree::ParamType>& info) 
 }
 
 INSTANTIATE_TEST_SUITE_P(Effects, NoiseFree,
-                         ::testing::Combine(::testing::Range(std::size_t(0), std::size_t(28)), ::testing::Bool()),
+                         ::testing::Combine(::testing::Range(std::size_t(0), cases().size()), ::testing::Bool()),
                          name_of);
 
 TEST(NoiseFree, EveryEffectHasACase) {

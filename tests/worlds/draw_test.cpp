@@ -143,8 +143,8 @@ TEST(Plan, UnknownNamesAndKeysAreRefusedWithTheChoices) {
 }
 
 TEST(Plan, EffectsTakeTurns) {
-  const WorldsPlan plan =
-      plan_of("format: umbsim-worlds/1\nengines: [ours]\ncases_per_engine: {single: 28, triple: 5}\n");
+  const WorldsPlan plan = plan_of("format: umbsim-worlds/1\nengines: [ours]\ncases_per_engine: {single: " +
+                                  std::to_string(catalogue().size()) + ", triple: 5}\n");
   std::map<std::string, int> count;
   for (const WorldCase& c : world_cases(plan)) {
     const std::vector<std::string> faults = fault_names(plan, c);

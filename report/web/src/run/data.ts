@@ -1,4 +1,4 @@
-// What a run's page holds (docs/pages.md): the summary and the runs with their thinned tracks.
+// What a run's page holds (docs/new-page.md): the summary and the runs with their thinned tracks.
 
 import {isNumber} from "../lib/format";
 
