@@ -56,6 +56,10 @@ TEST(WorldScore, CountsWhatItSays) {
   EXPECT_EQ(f.named.hits, 3);  // bump, push beside wear, and the three
   EXPECT_EQ(f.named.cases, 5);
   EXPECT_EQ(f.not_there.hits, 1);  // what is worth a fifth of a noise floor does not count
+  EXPECT_EQ(f.only_true.hits, 3);  // bump, bump of the pair, and the three
+  EXPECT_EQ(f.only_true.cases, 5);
+  EXPECT_EQ(f.untrue.hits, 3);  // in two cases without effect, and wear beside a push
+  EXPECT_EQ(f.untrue.cases, 9);
   EXPECT_EQ(f.closed.hits, 1);
   EXPECT_EQ(f.closed.cases, 2);
 }

@@ -22,7 +22,9 @@ struct WorldVerdict {
   bool known() const { return kind == "single" || kind == "pair" || kind == "triple"; }
   /// Every effect of the case is among those that the first cause names.
   bool all_named() const;
-  bool names_more() const;  ///< something that is not there, worth over half a noise floor
+  bool names_more() const;    ///< something that is not there, worth over half a noise floor
+  bool names_untrue() const;  ///< something that is not there, whatever it is worth
+  bool names_true() const;    ///< something that is there
 };
 
 /// Figures of one group of cases.
@@ -35,7 +37,9 @@ struct WorldFigures {
   Figure quiet_alarm;     ///< of cases without effect in worlds that are off by less than half a noise floor themselves
   Figure right;           ///< first cause exactly right, one effect that shows
   Figure named;           ///< truth among the named: one to three effects that show
+  Figure only_true;       ///< something true named and nothing untrue: one to three effects that show
   Figure not_there;       ///< something named that is not there and worth over half a noise floor
+  Figure untrue;          ///< something named that is not there, whatever it is worth
   Figure closed;          ///< closure of at least 0.7, where an effect shows
   Figure unknown_recall;  ///< unknown effects found where 5 % of the known ones are called so
   Figure unknown_area;    ///< area under that curve

@@ -101,6 +101,19 @@ bool WorldVerdict::names_more() const {
   return std::any_of(not_there.begin(), not_there.end(), [](double worth) { return worth > kWorthNaming; });
 }
 
+bool WorldVerdict::names_untrue() const {
+  const EffectNames named = split(verdict.named);
+  return std::any_of(named.begin(), named.end(), [&](const std::string& n) {
+    return n != "none" && n != "unknown" && verdict.answer.effects.count(n) == 0;
+  });
+}
+
+bool WorldVerdict::names_true() const {
+  const EffectNames named = split(verdict.named);
+  return std::any_of(verdict.answer.effects.begin(), verdict.answer.effects.end(),
+                     [&](const auto& e) { return named.count(e.first) > 0; });
+}
+
 WorldFigures world_figures(const Cases& cases) {
   WorldFigures f;
   f.cases = int(cases.size());
@@ -122,9 +135,14 @@ WorldFigures world_figures(const Cases& cases) {
       cases, "right", [](const WorldVerdict& v) { return v.kind == "single" && v.visible(); },
       [](const WorldVerdict& v) { return v.verdict.right; });
   f.named = share_of(cases, "named", shows, [](const WorldVerdict& v) { return v.all_named(); });
+  f.only_true =
+      share_of(cases, "only_true", shows, [](const WorldVerdict& v) { return v.names_true() && !v.names_untrue(); });
   f.not_there = share_of(
       cases, "not_there", [](const WorldVerdict& v) { return !v.verdict.failed; },
       [](const WorldVerdict& v) { return v.names_more(); });
+  f.untrue = share_of(
+      cases, "untrue", [](const WorldVerdict& v) { return !v.verdict.failed; },
+      [](const WorldVerdict& v) { return v.names_untrue(); });
   f.closed = share_of(
       cases, "closed", [&](const WorldVerdict& v) { return shows(v) && v.verdict.diagnosis.closure.has_value(); },
       [](const WorldVerdict& v) { return *v.verdict.diagnosis.closure >= kClosed; });
