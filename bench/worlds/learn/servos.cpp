@@ -39,11 +39,11 @@ std::optional<ServoResponse> response_of(const GapRecordings& recordings, const 
   const gap::CommandResponse foretold = response(simulator.commands(r, {}));
   if (!measured.known || !foretold.known) return {};
   const double left = measured.left_gain - foretold.left_gain, right = measured.right_gain - foretold.right_gain;
-  ServoResponse response_beyond;
-  response_beyond << (left + right) / 2, left - right, measured.lag_s - foretold.lag_s,
+  ServoResponse beyond;
+  beyond << (left + right) / 2, left - right, measured.lag_s - foretold.lag_s,
       gap::course_axes(run).transpose() * (measured.by_heading_radps - foretold.by_heading_radps) /
           foretold.speed_radps;
-  return response_beyond;
+  return beyond;
 }
 
 // Mean of the runs of a case; none where it has no commands.

@@ -22,9 +22,9 @@ struct WorldVerdict {
   bool known() const { return kind == "single" || kind == "pair" || kind == "triple"; }
   /// Every effect of the case is among those that the first cause names.
   bool all_named() const;
-  bool names_more() const;    ///< something that is not there, worth over half a noise floor
-  bool names_untrue() const;  ///< something that is not there, whatever it is worth
-  bool names_true() const;    ///< something that is there
+  bool names_more() const;  ///< something that is not there, worth over half a noise floor
+  bool names_true() const;  ///< something that is there
+  bool names_untrue() const { return !not_there.empty(); }  ///< something that is not, whatever it is worth
 };
 
 /// Figures of one group of cases.

@@ -101,13 +101,6 @@ bool WorldVerdict::names_more() const {
   return std::any_of(not_there.begin(), not_there.end(), [](double worth) { return worth > kWorthNaming; });
 }
 
-bool WorldVerdict::names_untrue() const {
-  const EffectNames named = split(verdict.named);
-  return std::any_of(named.begin(), named.end(), [&](const std::string& n) {
-    return n != "none" && n != "unknown" && verdict.answer.effects.count(n) == 0;
-  });
-}
-
 bool WorldVerdict::names_true() const {
   const EffectNames named = split(verdict.named);
   return std::any_of(verdict.answer.effects.begin(), verdict.answer.effects.end(),
