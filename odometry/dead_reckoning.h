@@ -35,7 +35,7 @@ inline RolledWays over_floor(const OdometryParameters& p, RolledWays counted) {
   const double way_m = (std::abs(counted.left_m) + std::abs(counted.right_m)) / 2;
   if (p.scrub == 0 || way_m == 0) return counted;
   const double bend = (counted.right_m - counted.left_m) / way_m;
-  const double creep = p.scrub * bend / std::hypot(bend, kHardly);
+  const double creep = p.scrub * bend / std::sqrt(bend * bend + kHardly * kHardly);
   return {counted.left_m + creep * std::abs(counted.left_m), counted.right_m - creep * std::abs(counted.right_m)};
 }
 

@@ -190,6 +190,28 @@ TEST(Methods, KellyFindsTheWheelsNoise) {
   }
 }
 
+// Weights follow the noise and the noise the weights: the fit must not swing about its answer, also where what is left
+// is no noise (a marker that is not above the axle's middle turns with the robot), nor keep its start in mind.
+TEST(Methods, KellyComesToRest) {
+  for (const double ahead_m : {0.01, 0.03, 0.1}) {
+    TestTracker tracker;
+    tracker.wheel_noise = 0.001;
+    tracker.marker_x_m = ahead_m;
+    tracker.position_sd_m = tracker.heading_sd_rad = 0.001;
+    const std::vector<Recording> squares{tracked_squares(robot(1.002, 1.01, 1), nominal_odometry(), 5, tracker)};
+    const Runs runs = training_runs(squares, {"s"});
+    OdometryParameters elsewhere = nominal_odometry();
+    for (double* length_m : {&elsewhere.wheelbase_m, &elsewhere.left_radius_m, &elsewhere.right_radius_m})
+      *length_m *= 1.02;  // all alike: the runs are cut at the same places
+    const Fit here = method("kelly").fit(runs, nominal_odometry()), there = method("kelly").fit(runs, elsewhere);
+    EXPECT_TRUE(here.warnings.empty() && there.warnings.empty()) << ahead_m;
+    const OdometryParameters a = scaled(nominal_odometry(), here.factors), b = scaled(elsewhere, there.factors);
+    EXPECT_NEAR(a.wheelbase_m / b.wheelbase_m, 1, 1e-7) << ahead_m;
+    EXPECT_NEAR(a.left_radius_m / b.left_radius_m, 1, 1e-7) << ahead_m;
+    EXPECT_NEAR(here.noise->left_m_per_sqrt_m.value / there.noise->left_m_per_sqrt_m.value, 1, 1e-4) << ahead_m;
+  }
+}
+
 // The interval of a mean over runs is the textbook's: t s / sqrt(n) of each direction, added in squares.
 TEST(Intervals, JackknifeIsTheTextbooksOnMeans) {
   TestTracker tracker;
@@ -247,8 +269,8 @@ TEST(OwnBias, IsThatOfThePublishedFigures) {
     EXPECT_NEAR(std::exp(answer[2]), c.said_e_b, 6e-6);
     const auto bias = own_bias(course, nominal_odometry(), answer);
     ASSERT_TRUE(bias);
-    // But for the mean radius: the formulas keep the arithmetic mean, which is off the logarithms' by (ln E_d)^2 / 8, at
-    // most 1.2e-5 of the radius. Sides and turns scale with it, and so does a bias that is at most 0.022.
+    // But for the mean radius: the formulas keep the arithmetic mean, which is off the logarithms' by (ln E_d)^2 / 8,
+    // at most 1.2e-5 of the radius. Sides and turns scale with it, and so does a bias that is at most 0.022.
     constexpr double kMeanRadius = 4 * 1.2e-5 * 0.022;
     EXPECT_NEAR(kEd.dot(*bias), kEd.dot(answer - factors), kMeanRadius);
     EXPECT_NEAR(kEb.dot(*bias), kEb.dot(answer - factors), kMeanRadius);

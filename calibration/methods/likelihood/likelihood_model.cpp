@@ -16,7 +16,7 @@ constexpr std::array<double, kTrackerSize> kTrackerPrior{0.3, 0.3, 0.3, 0.002};
 constexpr double kClockPrior_s = 0.3;
 constexpr double kNotFitted = 1e-9;  // prior of what is not fitted, and of what end points cannot tell
 
-// Residuals of one run for Ceres.
+// Residuals of one run for Ceres, which asks for a point's derivatives after it has seen its residuals: both are kept.
 class RunCost : public ceres::CostFunction {
  public:
   RunCost(const TrackError& run, const Whitening& whitening) : run_(run), whitening_(whitening) {
@@ -24,11 +24,7 @@ class RunCost : public ceres::CostFunction {
     *mutable_parameter_block_sizes() = {kRobotSize, kTrackerSize, kStartSize};
   }
   bool Evaluate(double const* const* p, double* residuals, double** jacobians) const override {
-    const TrackError::Linearised l = run_.at(p[0], p[1], p[2]);
-    Eigen::MatrixXd columns(l.error.size(), jacobians ? 1 + l.by.cols() : 1);
-    columns.col(0) = l.error;
-    if (jacobians) columns.rightCols(l.by.cols()) = l.by;
-    whitening_.apply(columns);
+    const Eigen::MatrixXd& columns = whitened(p);
     Eigen::VectorXd::Map(residuals, columns.rows()) = columns.col(0);
     int first = 1;
     for (int b = 0; jacobians && b < 3; ++b) {
@@ -41,8 +37,27 @@ class RunCost : public ceres::CostFunction {
   }
 
  private:
+  using Point = Eigen::Matrix<double, kRobotSize + kTrackerSize + kStartSize, 1>;
+
+  // Error and its derivatives.
+  const Eigen::MatrixXd& whitened(double const* const* p) const {
+    Point point;
+    point << Eigen::Map<const Eigen::Matrix<double, kRobotSize, 1>>(p[0]),
+        Eigen::Map<const Eigen::Matrix<double, kTrackerSize, 1>>(p[1]),
+        Eigen::Map<const Eigen::Matrix<double, kStartSize, 1>>(p[2]);
+    if (columns_.size() && point == point_) return columns_;
+    const TrackError::Linearised l = run_.at(p[0], p[1], p[2]);
+    columns_.resize(l.error.size(), 1 + l.by.cols());
+    columns_ << l.error, l.by;
+    whitening_.apply(columns_);
+    point_ = point;
+    return columns_;
+  }
+
   const TrackError& run_;
   const Whitening& whitening_;
+  mutable Point point_;
+  mutable Eigen::MatrixXd columns_;
 };
 
 // Value over standard deviation, of one block about zero.

@@ -105,7 +105,8 @@ std::vector<Arc> tracked_arcs(const TrainingRun& r, const OdometryParameters& no
 }
 
 Arc counted_arc(const TrainingRun& r, const OdometryParameters& nominal) {
-  const Piece p = pieces(r, nominal, 1).front();
+  const Runs one{r};
+  const Piece p = CutRuns(one, nominal, 1).pieces(nominal).front();
   return {p.counted.left_m, p.counted.right_m, p.tracked.theta_rad, 0, 0};
 }
 

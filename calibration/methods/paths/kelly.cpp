@@ -1,5 +1,7 @@
 #include "calibration/methods/paths/kelly.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
@@ -13,8 +15,9 @@ namespace umbsim::calibration {
 namespace {
 
 constexpr int kParts = 8;
-constexpr int kRounds = 20;
+constexpr int kRounds = 40;
 constexpr double kStepDone = 1e-8;
+constexpr double kNoiseDone = 1e-5;        // of the variances
 constexpr double kFirst_m = 0.0005;        // k to begin with, m per sqrt(m)
 constexpr double kLeastPosition_m = 1e-4;  // of the tracker, where the recording says less
 constexpr double kLeastHeading_rad = 1e-4;
@@ -28,9 +31,8 @@ Eigen::Matrix3d tracker_noise(const Recording& r) {
 
 struct State {
   LogFactors factors = LogFactors::Zero();
-  std::map<std::size_t, double> turned_rad;  ///< of each recording's tracker
-  double left_k2 = kFirst_m * kFirst_m;
-  double right_k2 = kFirst_m * kFirst_m;
+  std::map<std::size_t, double> turned_rad;                             ///< of each recording's tracker
+  Eigen::Vector2d k2 = Eigen::Vector2d::Constant(kFirst_m * kFirst_m);  ///< of the left wheel and the right one
 };
 
 // Error of one piece: residual, its derivatives by factors and by the tracker's turn, its covariance.
@@ -64,11 +66,16 @@ Row row_of(const Piece& p, const State& state) {
 }
 
 Eigen::Matrix3d weight(const Row& row, const State& s) {
-  return (s.left_k2 * row.left + s.right_k2 * row.right + row.tracker).inverse();
+  return (s.k2[0] * row.left + s.k2[1] * row.right + row.tracker).inverse();
 }
 
+struct ScoredNoise {
+  Eigen::Vector2d k2;
+  Eigen::Matrix2d information;
+};
+
 // Fisher scoring of both variances: least squares of the errors' outer products, weighted by their own covariance.
-Eigen::Matrix2d score_noise(const std::vector<Row>& rows, double fitted, State& s) {
+ScoredNoise score_noise(const std::vector<Row>& rows, double fitted, const State& s) {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   Eigen::Vector2d target = Eigen::Vector2d::Zero();
   double n = 0;
@@ -89,9 +96,7 @@ Eigen::Matrix2d score_noise(const std::vector<Row>& rows, double fitted, State& 
   if (k2[0] < 0) k2 = {0, std::max(0.0, target[1] / information(1, 1))};
   if (k2[1] < 0) k2 = {std::max(0.0, target[0] / information(0, 0)), 0};
   constexpr double kLeast = 1e-16;
-  s.left_k2 = std::max(k2[0], kLeast);
-  s.right_k2 = std::max(k2[1], kLeast);
-  return information;
+  return {k2.cwiseMax(kLeast), information};
 }
 
 // k with an interval on the scale of k^2, which cannot be negative.
@@ -131,10 +136,19 @@ Fit fit_kelly(const Runs& runs, const OdometryParameters& nominal) {
   Fit fit;
   Eigen::Matrix2d information = Eigen::Matrix2d::Identity();
   fit.scale_observed = true;
-  for (int round = 0; round < kRounds; ++round) {
+  const CutRuns cut(runs, nominal, kParts);
+  bool noise_rests = false, at_rest = false;
+  for (int round = 0; round < kRounds && !at_rest; ++round) {
     std::vector<Row> rows;
-    for (const Piece& p : pieces(runs, scaled(nominal, state.factors), kParts)) rows.push_back(row_of(p, state));
-    if (round > 0) information = score_noise(rows, double(3 + state.turned_rad.size()), state);
+    for (const Piece& p : cut.pieces(scaled(nominal, state.factors))) rows.push_back(row_of(p, state));
+    if (round > 0) {
+      const ScoredNoise scored = score_noise(rows, double(3 + state.turned_rad.size()), state);
+      // Weights follow the variances, and these the weights, too far each time: half the step goes where they meet.
+      const Eigen::Vector2d before = state.k2;
+      state.k2 = round == 1 ? scored.k2 : Eigen::Vector2d((before + scored.k2) / 2);
+      noise_rests = (state.k2 - before).norm() < kNoiseDone * state.k2.norm();
+      information = scored.information;
+    }
     const Normal normal = normal_equations(rows, state);
     const ScaleCheck scale = solve_with_scale(normal.matrix, normal.right, fit.scale_observed);
     if (!scale.solved) throw NotApplicable(scale.why);
@@ -145,12 +159,13 @@ Fit fit_kelly(const Runs& runs, const OdometryParameters& nominal) {
     for (auto& [recording, turned] : state.turned_rad) turned += scale.step[column++];
     if (!state.factors.allFinite() || state.factors.norm() > 2)
       throw NotApplicable("the fit runs away: the paths do not tell the parameters");
-    if (round > 3 && scale.step.norm() < kStepDone) break;
+    at_rest = noise_rests && scale.step.norm() < kStepDone;
   }
+  if (!at_rest) fit.warnings.push_back(fmt::format("parameters and noise did not come to rest in {} rounds", kRounds));
   fit.factors = state.factors;
   const Eigen::Matrix2d covariance = information.inverse();
-  fit.noise = WheelNoise{noise_estimate(state.left_k2, std::sqrt(std::abs(covariance(0, 0)))),
-                         noise_estimate(state.right_k2, std::sqrt(std::abs(covariance(1, 1))))};
+  fit.noise = WheelNoise{noise_estimate(state.k2[0], std::sqrt(std::abs(covariance(0, 0)))),
+                         noise_estimate(state.k2[1], std::sqrt(std::abs(covariance(1, 1))))};
   for (const auto& [recording, turned] : state.turned_rad)
     fit.trackers.push_back({std::to_string(recording), turned, 0, 0, 0, 0});
   return fit;

@@ -18,8 +18,8 @@ Fit fit_least_squares(const Runs& runs, const OdometryParameters& nominal) {
   // Step 1: theta_end - theta_start = (c_R / b) r - (c_L / b) l, with r and l by nominal radii over the wheelbase.
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
-  const std::vector<Piece> all = pieces(runs, nominal, kParts);
-  for (const Piece& p : all) {
+  const CutRuns cut(runs, nominal, kParts);
+  for (const Piece& p : cut.pieces(nominal)) {
     const Eigen::Vector2d row(-p.counted.left_m / nominal.wheelbase_m, p.counted.right_m / nominal.wheelbase_m);
     normal += p.run->weight * row * row.transpose();
     right += p.run->weight * row * p.tracked.theta_rad;
@@ -34,7 +34,7 @@ Fit fit_least_squares(const Runs& runs, const OdometryParameters& nominal) {
   // Step 2: with these the reckoned positions are proportional to b.
   const OdometryParameters shape = scaled(nominal, {std::log(over_b[0]), std::log(over_b[1]), 0});
   double own = 0, product = 0, way = 0;
-  for (const Piece& p : pieces(runs, shape, kParts)) {
+  for (const Piece& p : cut.pieces(shape)) {
     const Pose2& s = p.counted.pose;
     own += p.run->weight * (s.x_m * s.x_m + s.y_m * s.y_m);
     product += p.run->weight * (s.x_m * p.tracked.x_m + s.y_m * p.tracked.y_m);

@@ -14,12 +14,20 @@ struct Piece {
   Travel counted;
 };
 
-/// The run cut at `parts` nearly equal steps of its way and turning (one step where there are end points only), and
-/// reckoned by `odometry`.
-std::vector<Piece> pieces(const TrainingRun& run, const OdometryParameters& odometry, int parts);
+/// The runs cut at `parts` nearly equal steps of their way and turning (one step where there are end points only).
+/// Places of the cuts do not depend on parameters that are fitted: an answer that moved them would jump.
+class CutRuns {
+ public:
+  /// Steps of ways by `nominal`. `runs` must outlive it.
+  CutRuns(const Runs& runs, const OdometryParameters& nominal, int parts);
 
-/// Of all runs.
-std::vector<Piece> pieces(const Runs& runs, const OdometryParameters& odometry, int parts);
+  /// All pieces, reckoned by `odometry`.
+  std::vector<Piece> pieces(const OdometryParameters& odometry) const;
+
+ private:
+  const Runs& runs_;
+  std::vector<std::vector<std::size_t>> rows_;  ///< of the truth, at which each run is cut
+};
 
 /// Condition number of a symmetric matrix of normal equations after scaling its diagonal to one; infinite where it is
 /// singular.

@@ -10,7 +10,10 @@ namespace {
 // d sinc(x) / dx.
 double sinc_slope(double x) { return std::abs(x) < 1e-4 ? -x / 3 : (std::cos(x) - std::sin(x) / x) / x; }
 
-Eigen::Matrix3d outer(const Eigen::Vector3d& v) { return v * v.transpose(); }
+// An error of the pose, moved as it would move if the robot drove back to the start: there errors of all arcs add up.
+Eigen::Vector3d at_start(const Eigen::Vector3d& error, const Pose2& pose) {
+  return {error[0] + pose.y_m * error[2], error[1] - pose.x_m * error[2], error[2]};
+}
 
 // What a scrub of one would take of both ways.
 RolledWays taken_by_scrub(const OdometryParameters& o, const RolledWays& counted) {
@@ -20,31 +23,38 @@ RolledWays taken_by_scrub(const OdometryParameters& o, const RolledWays& counted
   return {left.left_m - counted.left_m, left.right_m - counted.right_m};
 }
 
-// Goes on from `t` over an arc of both wheels.
+// Goes on from `t`, whose errors are those at the start, over an arc of both wheels.
 void roll(Travel& t, const RolledWays& counted, const OdometryParameters& odometry) {
   const RolledWays scrub = taken_by_scrub(odometry, counted);
   const double left_m = counted.left_m + odometry.scrub * scrub.left_m;
   const double right_m = counted.right_m + odometry.scrub * scrub.right_m;
   const double wheelbase_m = odometry.wheelbase_m;
   const double ds = (left_m + right_m) / 2, turn = (right_m - left_m) / wheelbase_m;
-  const double chord = ds * sinc(turn / 2), middle = t.pose.theta_rad + turn / 2;
+  const double of_arc = sinc(turn / 2), chord = ds * of_arc, middle = t.pose.theta_rad + turn / 2;
   const double c = std::cos(middle), s = std::sin(middle);
-  const Eigen::Vector3d by_way(sinc(turn / 2) * c, sinc(turn / 2) * s, 0);
+  t.pose = {t.pose.x_m + chord * c, t.pose.y_m + chord * s, t.pose.theta_rad + turn};
   const double slope = ds * sinc_slope(turn / 2) / 2;
-  const Eigen::Vector3d by_turn(slope * c - chord / 2 * s, slope * s + chord / 2 * c, 1);
-  const Pose2 before = t.pose;
-  t.pose = {before.x_m + chord * c, before.y_m + chord * s, before.theta_rad + turn};
-  const Eigen::Matrix3d F = transition(before, t.pose);
+  const Eigen::Vector3d by_way(of_arc * c, of_arc * s, 0);
+  const Eigen::Vector3d by_turn = at_start({slope * c - chord / 2 * s, slope * s + chord / 2 * c, 1}, t.pose);
   const Eigen::Vector3d by_left = by_way / 2 - by_turn / wheelbase_m, by_right = by_way / 2 + by_turn / wheelbase_m;
-  t.by_factor = F * t.by_factor;
   t.by_factor.col(0) += by_left * left_m;
   t.by_factor.col(1) += by_right * right_m;
   t.by_factor.col(2) -= by_turn * turn;
-  t.by_scrub = F * t.by_scrub + by_left * scrub.left_m + by_right * scrub.right_m;
-  t.left_noise = F * t.left_noise * F.transpose() + outer(by_left) * std::abs(left_m);
-  t.right_noise = F * t.right_noise * F.transpose() + outer(by_right) * std::abs(right_m);
+  t.by_scrub += by_left * scrub.left_m + by_right * scrub.right_m;
+  t.left_noise.noalias() += by_left * (by_left * std::abs(left_m)).transpose();
+  t.right_noise.noalias() += by_right * (by_right * std::abs(right_m)).transpose();
   t.left_m += left_m;
   t.right_m += right_m;
+}
+
+// The same with errors of the pose where the robot is.
+Travel carried(Travel t) {
+  const Eigen::Matrix3d F = transition({}, t.pose);
+  t.by_factor = F * t.by_factor;
+  t.by_scrub = F * t.by_scrub;
+  t.left_noise = F * t.left_noise * F.transpose();
+  t.right_noise = F * t.right_noise * F.transpose();
+  return t;
 }
 
 }  // namespace
@@ -68,7 +78,8 @@ std::vector<Travel> travel(const RecordedRun& run, const OdometryParameters& odo
   for (const double time_s : times_s) {
     const EncoderClock::Moment m = clock.at(time_s);
     for (; i < m.before; ++i) {
-      roll(at, {kl * double(s[i + 1].left_ticks - s[i].left_ticks), kr * double(s[i + 1].right_ticks - s[i].right_ticks)},
+      roll(at,
+           {kl * double(s[i + 1].left_ticks - s[i].left_ticks), kr * double(s[i + 1].right_ticks - s[i].right_ticks)},
            odometry);
     }
     const double left_m = kl * double(s[i + 1].left_ticks - s[i].left_ticks);
@@ -79,7 +90,7 @@ std::vector<Travel> travel(const RecordedRun& run, const OdometryParameters& odo
     const double v = (left_m + right_m) / 2 / dt;
     part.velocity = {v * std::cos(part.pose.theta_rad), v * std::sin(part.pose.theta_rad),
                      (right_m - left_m) / odometry.wheelbase_m / dt};
-    result.push_back(part);
+    result.push_back(carried(part));
   }
   return result;
 }
