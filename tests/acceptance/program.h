@@ -48,7 +48,7 @@ struct Outcome {
 class Desk {
  public:
   Desk() {
-    std::string pattern = (fs::path(testing::TempDir()) / "umbsim_XXXXXX").string();
+    std::string pattern = (fs::path(::testing::TempDir()) / "umbsim_XXXXXX").string();
     if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder: " + pattern);
     root_ = pattern;
     home = root_ / "home";

@@ -39,7 +39,7 @@ TrueRobot robot(double e_d, double e_b, double scale) {
 
 Fit fit(const std::string& name, const std::vector<Recording>& recordings) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < recordings.size(); ++i) names.push_back("r" + std::to_string(i));
+  for (std::size_t i = 0; i < recordings.size(); ++i) names.push_back(std::to_string(i));
   return method(name).fit(training_runs(recordings, names), nominal_odometry());
 }
 

@@ -15,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class SweepFile : public testing::Test {
+class SweepFile : public ::testing::Test {
  protected:
-  SweepFile() : folder_(testing::TempDir() + "umbsim_sweep_" + std::to_string(getpid())) {
+  SweepFile() : folder_(::testing::TempDir() + "umbsim_sweep_" + std::to_string(getpid())) {
     fs::create_directories(folder_);
     std::ofstream(folder_ + "/base.yaml") << "format: umbsim-scenario/1\nseed: 5\n";
   }

@@ -10,16 +10,16 @@
 namespace umbsim::trial_testing {
 namespace {
 
-constexpr double kRoundOff = 1e-9;
+constexpr double kExact = 1e-9;
 constexpr double kPrinted = 5e-5;  // tables give four decimals
 
 // With no hit, the upper Clopper-Pearson bound p solves (1 - p)^n = tail.
 TEST(Share, WithoutHitsTheBoundIsInClosedForm) {
   for (const int n : {1, 20, 60}) {
     EXPECT_EQ(share(0, n).low, 0);
-    EXPECT_NEAR(share(0, n).high, 1 - std::pow(0.025, 1.0 / n), kRoundOff);
-    EXPECT_NEAR(upper_bound(0, n), 1 - std::pow(0.05, 1.0 / n), kRoundOff);
-    EXPECT_NEAR(share(n, n).low, std::pow(0.025, 1.0 / n), kRoundOff);
+    EXPECT_NEAR(share(0, n).high, 1 - std::pow(0.025, 1.0 / n), kExact);
+    EXPECT_NEAR(upper_bound(0, n), 1 - std::pow(0.05, 1.0 / n), kExact);
+    EXPECT_NEAR(share(n, n).low, std::pow(0.025, 1.0 / n), kExact);
     EXPECT_EQ(share(n, n).high, 1);
   }
 }
