@@ -90,7 +90,7 @@ void check_run(const Recording& recording, const RecordedRun& run, const std::st
   check_counts(directory, run, robot);
   check_truth(directory, run, robot);
   if (tracked) {
-    check_scale(directory, run, robot);
+    check_scale(directory, run, recording);
     check_places(directory, run, robot, recording.truth_position_sd_m);
   } else {
     check_end_points(directory, run, recording);

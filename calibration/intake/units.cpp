@@ -12,6 +12,9 @@ namespace umbsim::intake {
 namespace {
 
 constexpr double kBetterWiring = 0.25;  // of correlation and scale, by which another wiring must be likelier
+constexpr double kOverNoise = 10;       // times a reading's, that a piece moves: noise then lengthens no way
+constexpr double kLongest_m = 0.2;      // and is long enough, whatever the header says of its noise,
+constexpr double kTurned_rad = 0.3;     // or turns, so that its middle heading is that of its way
 constexpr double kCoherent = 0.8;       // share of the way that lies along the truth's own heading
 
 // What a wheel pair and the tracker say of one piece of a run, metres and radians.
@@ -21,21 +24,28 @@ struct Piece {
   Pose2 tracked;
 };
 
-std::vector<Piece> pieces_of(const RecordedRun& run, const RecordedRobot& robot) {
+// Whether the tracker saw more of a piece than its noise.
+bool seen(const Pose2& moved, const Recording& recording) {
+  return std::hypot(moved.x_m, moved.y_m) >= std::min(kLongest_m, kOverNoise * recording.truth_position_sd_m) ||
+         std::abs(moved.theta_rad) >= kTurned_rad;
+}
+
+std::vector<Piece> pieces_of(const RecordedRun& run, const Recording& recording) {
   std::vector<Piece> pieces;
-  const double k = metres_per_tick(robot);
+  const double k = metres_per_tick(recording.robot);
   std::size_t i = 0;
   std::size_t before = 0;
   for (std::size_t j = 1; j < run.truth.size(); ++j) {
     const TruthSample& a = run.truth[before];
     const TruthSample& b = run.truth[j];
-    if (b.time_s - a.time_s < kPiece_s && j + 1 < run.truth.size()) continue;
     Piece p;
+    p.tracked = inverse(a.X_WB) * b.X_WB;
+    const bool ends = b.time_s - a.time_s >= kPiece_s && seen(p.tracked, recording);
+    if (!ends && j + 1 < run.truth.size()) continue;
     const std::size_t from = i;
     while (i + 1 < run.encoders.size() && run.encoders[i].time_s < b.time_s) ++i;
     p.left_m = k * double(run.encoders[i].left_ticks - run.encoders[from].left_ticks);
     p.right_m = k * double(run.encoders[i].right_ticks - run.encoders[from].right_ticks);
-    p.tracked = inverse(a.X_WB) * b.X_WB;
     pieces.push_back(p);
     before = j;
   }
@@ -126,8 +136,9 @@ void check_mirrored(const std::string& directory, const RecordedRun& run, const 
 
 }  // namespace
 
-void check_scale(const std::string& directory, const RecordedRun& run, const RecordedRobot& robot) {
-  const std::vector<Piece> pieces = pieces_of(run, robot);
+void check_scale(const std::string& directory, const RecordedRun& run, const Recording& recording) {
+  const RecordedRobot& robot = recording.robot;
+  const std::vector<Piece> pieces = pieces_of(run, recording);
   const Totals t = totals(pieces, robot.wheelbase_m);
   const bool counted = t.counted_m > 0 || t.counted_turn_rad > 0;
   if (t.tracked_m < 0.05 && t.tracked_turn_rad < 0.3 && t.counted_m < 0.05 && t.counted_turn_rad < 0.3)

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <random>
 
 #include "core/error.h"
 #include "tests/acceptance/program.h"
@@ -306,6 +307,19 @@ TEST(CheckRecording, RealMishapsAreNoFaultsOfTheRecording) {
     s.effects = {mishap};
     EXPECT_NO_THROW(check_recording(run_experiment(s, 0).recording, "here")) << mishap.info->name;
   }
+}
+
+// A camera's noise makes the way of a slow robot longer, reading by reading, and is no wrong unit.
+TEST(CheckRecording, ASlowRobotBeforeANoisyCamera) {
+  Scenario s = testing::squares(1, 1);
+  s.course.linear_speed_mps = 0.03;
+  s.course.side_m = 0.5;
+  Recording recording = run_experiment(s, 0).recording;
+  recording.truth_position_sd_m = recording.truth_heading_sd_rad = 0.01;
+  std::mt19937 bits(1);
+  std::normal_distribution<double> noise(0, 0.01);
+  every_pose([&](Pose2& p) { p = {p.x_m + noise(bits), p.y_m + noise(bits), p.theta_rad + noise(bits)}; })(recording);
+  EXPECT_NO_THROW(check_recording(recording, "here"));
 }
 
 // One intake: whoever measures on a recording refuses it in the same words.
