@@ -14,7 +14,7 @@ void check_scale(const std::string& directory, const RecordedRun& run, const Rec
 void check_end_points(const std::string& directory, const RecordedRun& run, const Recording& recording);
 
 /// Commands in other units than rad/s, exchanged, reversed, or none. Throws InputError.
-void check_commands(const std::string& directory, const RecordedRun& run, const Recording& recording);
+void check_commands(const std::string& directory, const RecordedRun& run, const RecordedRobot& robot);
 
 /// The run against what recording.yaml says of it: direction, side and speed. Throws InputError.
 void check_path(const std::string& directory, const RecordedRun& run, const Recording& recording);

@@ -23,7 +23,7 @@ using testing::random_problem;
 constexpr double kSolved = 1e-9;
 // Two solvers, each exact to round-off times the condition number (up to 1e5) of the random matrices.
 constexpr double kSameAsDantzig = 1e-9;
-constexpr double kRoundOff = 1e-12;
+constexpr double kOfTheSolver = 1e-12;
 constexpr int kProblems = 2000;
 
 TEST(ContactLaws, CheckerSeesEveryKindOfViolation) {
@@ -36,7 +36,7 @@ TEST(ContactLaws, CheckerSeesEveryKindOfViolation) {
   p.b << -2, 4, 0, -0.5;
   RowVector x(4);
   x << 2, -1, 0, 0.5;  // presses at 2, slides with the whole 0.5 * 2 against +x, motor within its limit
-  EXPECT_LT(law_violation(p, x), kRoundOff);
+  EXPECT_LT(law_violation(p, x), kOfTheSolver);
   constexpr double kWrong[][4] = {{-2, 0, 0, 0.5},   {3, -1.5, 0, 0.5}, {2, 1, 0, 0.5},  {2, -0.6, -0.8, 0.5},
                                   {2, -1.2, 0, 0.5}, {2, -1, 0, 0.2},   {2, -1, 0, 1.5}, {1, -0.5, 0, 0.5}};
   for (const auto& w : kWrong) {
@@ -177,7 +177,7 @@ struct Block {
     p.b << v.z() - g * step_s, v.x() + push_n.x() / mass_kg * step_s, v.y() + push_n.y() / mass_kg * step_s;
     RowVector x;
     EXPECT_NE(solve_contacts(p, x).outcome, SolveOutcome::fallback);
-    EXPECT_NEAR(x[0], mass_kg * g * step_s, kRoundOff);
+    EXPECT_NEAR(x[0], mass_kg * g * step_s, kOfTheSolver);
     const RowVector w = p.A * x + p.b;
     return {w[1], w[2], w[0]};
   }

@@ -10,7 +10,7 @@
 namespace umbsim {
 namespace {
 
-constexpr double kOfTheSearch = 3e-16;
+constexpr double kLastPlaces = 3e-16;
 
 Floor rippled(int waves) {
   Floor floor;
@@ -26,8 +26,8 @@ TEST(SinesOfTwo, AreThoseOfTheLibrary) {
       Eigen::Array2d sine, cosine;
       sines_of_two(angle_rad, sine, cosine);
       for (int i = 0; i < 2; ++i) {
-        ASSERT_NEAR(sine[i], std::sin(angle_rad[i]), kOfTheSearch) << angle_rad[i];
-        ASSERT_NEAR(cosine[i], std::cos(angle_rad[i]), kOfTheSearch) << angle_rad[i];
+        ASSERT_NEAR(sine[i], std::sin(angle_rad[i]), kLastPlaces) << angle_rad[i];
+        ASSERT_NEAR(cosine[i], std::cos(angle_rad[i]), kLastPlaces) << angle_rad[i];
       }
     }
   }

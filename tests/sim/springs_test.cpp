@@ -23,7 +23,7 @@ constexpr double kExact_m = 1e-6;  // 0.001 mm
 constexpr double kCable = 0.03;
 
 // The labmate with its weight over the axle, and balls in the place of the one.
-RobotModel on_balls(const std::vector<Eigen::Vector2d>& places, double ahead_m = 0) {
+RobotModel on_sprung_balls(const std::vector<Eigen::Vector2d>& places, double ahead_m = 0) {
   RobotModel robot = labmate();
   robot.base.com_m.x() = ahead_m * robot.total_mass_kg() / robot.base.mass_kg;
   const Caster ball = robot.casters[0];
@@ -35,9 +35,9 @@ RobotModel on_balls(const std::vector<Eigen::Vector2d>& places, double ahead_m =
   return robot;
 }
 
-RobotModel four(double ahead_m = 0) { return on_balls({{0.25, 0}, {-0.25, 0}}, ahead_m); }
+RobotModel four(double ahead_m = 0) { return on_sprung_balls({{0.25, 0}, {-0.25, 0}}, ahead_m); }
 RobotModel six(double ahead_m = 0) {
-  return on_balls({{0.25, 0.15}, {0.25, -0.15}, {-0.25, 0.15}, {-0.25, -0.15}}, ahead_m);
+  return on_sprung_balls({{0.25, 0.15}, {0.25, -0.15}, {-0.25, 0.15}, {-0.25, -0.15}}, ahead_m);
 }
 
 RobotModel sprung(RobotModel robot, const SuspensionChoice& choice = {}, double floor_rms_m = 0) {
@@ -142,7 +142,7 @@ TEST(Springs, RollsAsExactlyAsRigidSupports) {
 TEST(Springs, CableTurnsItAsTheClosedFormSays) {
   const double r = 0.005, R = 0.075, b = 0.34;
   const double closed_rad = (2 * (R + r) * std::acos((R - r) / (R + r)) - 4 * std::sqrt(R * r)) / b;
-  const RobotModel narrow = on_balls({{0.25, 0.08}, {0.25, -0.08}, {-0.25, 0.08}, {-0.25, -0.08}});  // past the cable
+  const RobotModel narrow = on_sprung_balls({{0.25, 0.08}, {0.25, -0.08}, {-0.25, 0.08}, {-0.25, -0.08}});  // past the cable
   for (const RobotModel& robot : {sprung(four()), sprung(narrow)}) {
     for (const double speed_mps : {0.05, 0.2}) {
       SCOPED_TRACE(::testing::PrintToString(robot.casters.size()) + " casters at " + std::to_string(speed_mps));

@@ -9,7 +9,7 @@ namespace {
 constexpr double kG = 10;
 
 // 20 kg on wheels at (0, +-0.2) and balls; the centre of mass `ahead` of the axle, 0.1 m above the floor.
-RobotModel on_casters(const std::vector<Eigen::Vector3d>& balls, double ahead_m) {
+RobotModel on_balls(const std::vector<Eigen::Vector3d>& balls, double ahead_m) {
   RobotModel robot;
   robot.base = {18, {ahead_m * 20 / 18, 0, 0}, 0.3 * Eigen::Matrix3d::Identity()};
   for (int i = 0; i < 2; ++i) {
@@ -30,7 +30,7 @@ RobotModel on_casters(const std::vector<Eigen::Vector3d>& balls, double ahead_m)
 }
 
 TEST(RestLoads, ThreeSupportsByStatics) {
-  const std::vector<double> loads = rest_loads(on_casters({{0.3, 0, -0.07}}, 0.06), kG);
+  const std::vector<double> loads = rest_loads(on_balls({{0.3, 0, -0.07}}, 0.06), kG);
   ASSERT_EQ(loads.size(), 3u);  // 200 N, a fifth of the way to the ball
   EXPECT_NEAR(loads[0], 80, 1e-9);
   EXPECT_NEAR(loads[1], 80, 1e-9);
@@ -39,7 +39,7 @@ TEST(RestLoads, ThreeSupportsByStatics) {
 
 // Equal springs: F = a + b x. Sum 4 a = W; moment b 2 c^2 = W x.
 TEST(RestLoads, FourSupportsAsOnEqualSprings) {
-  const std::vector<double> loads = rest_loads(on_casters({{0.3, 0, -0.07}, {-0.3, 0, -0.07}}, 0.03), kG);
+  const std::vector<double> loads = rest_loads(on_balls({{0.3, 0, -0.07}, {-0.3, 0, -0.07}}, 0.03), kG);
   ASSERT_EQ(loads.size(), 4u);
   EXPECT_NEAR(loads[0], 50, 1e-9);
   EXPECT_NEAR(loads[1], 50, 1e-9);
@@ -50,7 +50,7 @@ TEST(RestLoads, FourSupportsAsOnEqualSprings) {
 // F = a + b x: 6 a = W; b 4 c^2 = W x.
 TEST(RestLoads, SixSupports) {
   const std::vector<double> loads = rest_loads(
-      on_casters({{0.3, 0.15, -0.07}, {0.3, -0.15, -0.07}, {-0.3, 0.15, -0.07}, {-0.3, -0.15, -0.07}}, 0.06), kG);
+      on_balls({{0.3, 0.15, -0.07}, {0.3, -0.15, -0.07}, {-0.3, 0.15, -0.07}, {-0.3, -0.15, -0.07}}, 0.06), kG);
   ASSERT_EQ(loads.size(), 6u);
   const double even = 200.0 / 6, more = 200 * 0.06 / (4 * 0.3);
   EXPECT_NEAR(loads[0], even, 1e-9);
@@ -61,22 +61,22 @@ TEST(RestLoads, SixSupports) {
 
 TEST(RestLoads, ASupportThatWouldHaveToPullCarriesNothing) {
   // Equal springs would give the rear ball 50 - 200 * 0.2 / 0.6 < 0: the other three carry by statics.
-  const std::vector<double> loads = rest_loads(on_casters({{0.3, 0, -0.07}, {-0.3, 0, -0.07}}, 0.2), kG);
+  const std::vector<double> loads = rest_loads(on_balls({{0.3, 0, -0.07}, {-0.3, 0, -0.07}}, 0.2), kG);
   ASSERT_EQ(loads.size(), 4u);
   EXPECT_DOUBLE_EQ(loads[3], 0);
   EXPECT_NEAR(loads[2], 200 * 0.2 / 0.3, 1e-9);
-  EXPECT_TRUE(rest_loads(on_casters({{0.3, 0, -0.07}}, -0.01), kG).empty());
+  EXPECT_TRUE(rest_loads(on_balls({{0.3, 0, -0.07}}, -0.01), kG).empty());
 }
 
 TEST(Suspensions, ThreeSupportsStayRigid) {
-  RobotModel robot = on_casters({{0.3, 0, -0.07}}, 0.06);
+  RobotModel robot = on_balls({{0.3, 0, -0.07}}, 0.06);
   suspend(robot, {}, kG, 0.01);
   EXPECT_EQ(robot.wheels[0].suspension, Suspension{});
   EXPECT_EQ(robot.casters[0].suspension, Suspension{});
 }
 
 TEST(Suspensions, DefaultTravelGrowsWithTheFloor) {
-  RobotModel robot = on_casters({{0.3, 0, -0.07}, {-0.3, 0, -0.07}}, 0);
+  RobotModel robot = on_balls({{0.3, 0, -0.07}, {-0.3, 0, -0.07}}, 0);
   suspend(robot, {}, kG, 0);
   EXPECT_NEAR(robot.wheels[0].suspension.up_m, 0.010, 1e-12);
   EXPECT_NEAR(robot.wheels[0].suspension.stiffness_npm, 50 / 0.010, 1e-6);
@@ -88,7 +88,7 @@ TEST(Suspensions, DefaultTravelGrowsWithTheFloor) {
 }
 
 TEST(Suspensions, ByTheScenarioAndByTheUrdf) {
-  RobotModel robot = on_casters({{0.3, 0, -0.07}}, 0.06);
+  RobotModel robot = on_balls({{0.3, 0, -0.07}}, 0.06);
   suspend(robot, {0.02, 0.0, 0.5}, kG, 0);
   const Suspension& s = robot.wheels[0].suspension;
   EXPECT_NEAR(s.stiffness_npm, 80 / 0.01, 1e-6);
