@@ -17,7 +17,7 @@ Fit with(const Model& model, const Screen& screen, const Fit& fit, const Hypothe
   hypotheses.push_back(dimension);
   Eigen::VectorXd start(fit.p.size() + Eigen::Index(dimension.parameters.size()));
   start << fit.p, start_of(dimension);
-  return model.fit(hypotheses, start, kRoundsBeside, {}, screen.near(fit, dimension));
+  return model.fit(hypotheses, start, {kRoundsBeside}, {}, screen.near(fit, dimension));
 }
 
 // Whether runs come nearer by as much as is left, and as noise makes (mean squares).

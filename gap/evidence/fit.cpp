@@ -117,8 +117,8 @@ Fit Model::without(const Fit& whole, std::size_t out) const {
 
 // Gauss-Newton on the density, with steps back where the simulator bends. Derivatives are taken where the descent
 // begins, if none are given, and, if `sure`, where it ends, if steps did not go where they pointed.
-Fit Model::descend(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& start, int rounds,
-                   const std::vector<std::size_t>& runs, Descent& d, bool sure) const {
+Fit Model::descend(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& start,
+                   const Descending& descending, const std::vector<std::size_t>& runs, Descent& d, bool sure) const {
   const std::vector<FreeParameter> free = free_parameters(hypotheses);
   const Eigen::VectorXd s = prior_sd_of(hypotheses);
   const bool from_zero =
@@ -127,7 +127,7 @@ Fit Model::descend(const std::vector<Hypothesis>& hypotheses, const Eigen::Vecto
   fit.hypotheses = hypotheses;
   fit.p = start.size() == s.size() ? start : start_of(hypotheses);
   Fit best;
-  for (int round = 0; round < rounds_of(hypotheses, rounds); ++round) {
+  for (int round = 0; round < rounds_of(hypotheses, descending.rounds); ++round) {
     try {
       fit.predicted = predict({fit.effects()}).front();
       const std::vector<Eigen::VectorXd> there = residuals(fit.predicted);
@@ -142,7 +142,7 @@ Fit Model::descend(const std::vector<Hypothesis>& hypotheses, const Eigen::Vecto
       // far, if it could be driven before.
       if (round == 0) throw;
       best.linear = false;
-      fit.p = (fit.p + best.p) / 2;
+      fit.p = best.p + descending.back * (fit.p - best.p);
       continue;
     }
     Eigen::VectorXd next = d.next_numbers(fit, solve(fit, runs, d), free);
@@ -156,7 +156,7 @@ Fit Model::descend(const std::vector<Hypothesis>& hypotheses, const Eigen::Vecto
     if (density <= d.density) {
       // Where a step leads was not where the derivatives pointed, unless it was too small to matter.
       best.linear = density > d.density - 0.5;
-      fit.p = (fit.p + best.p) / 2;
+      fit.p = best.p + descending.back * (fit.p - best.p);
       continue;
     }
     bool ends = density < d.density + 0.05 || d.change < 0.1;
@@ -176,11 +176,11 @@ Fit Model::descend(const std::vector<Hypothesis>& hypotheses, const Eigen::Vecto
   return best;
 }
 
-Fit Model::fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& start, int rounds,
+Fit Model::fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& start, const Descending& descending,
                const std::vector<std::size_t>& some, const std::optional<Linearisation>& known) const {
   const std::vector<std::size_t> runs = some.empty() ? all_runs() : some;
   Descent d{known};
-  Fit best = descend(hypotheses, start, rounds, runs, d, true);
+  Fit best = descend(hypotheses, start, descending, runs, d, true);
   if (d.learned) {
     take_derivatives(best, d);
     solve(best, runs, d);
@@ -209,7 +209,7 @@ Eigen::VectorXd Model::numbers_on(const Fit& fit, const std::vector<std::size_t>
   if (fit.linear || !all_told) return numbers;
   // Where the simulator bends the derivatives may point off the hill: the descent steps back then.
   Descent d{Linearisation{fit.p, residuals(fit.predicted), fit.columns}};
-  return descend(fit.hypotheses, fit.p, kRoundsOnFewer, runs, d, false).p;
+  return descend(fit.hypotheses, fit.p, {kRoundsOnFewer}, runs, d, false).p;
 }
 
 }  // namespace umbsim::gap

@@ -1,4 +1,8 @@
-// Derivatives that a descent takes along.
+// Whitened residuals, their derivatives, and what a descent takes along of these.
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
 #include "gap/evidence/model.h"
 
 namespace umbsim::gap {
@@ -7,7 +11,54 @@ namespace {
 constexpr double kBendShare = 0.01;  // of a step, squared, by which it may end elsewhere than its derivatives foretold,
 constexpr double kBend = 1;          // or as much in squared standard deviations of the tracks
 
+bool same(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Pose2& at, const Pose2& there) {
+    return at.x_m == there.x_m && at.y_m == there.y_m && at.theta_rad == there.theta_rad;
+  });
+}
+
 }  // namespace
+
+// What happens at a place or in one run leaves most runs as they are.
+void Model::look_without_effects() {
+  products_of_nuisances_ = products_of_nuisances();
+  unmoved_ = {};
+  std::vector<Eigen::VectorXd> residual = residuals(without_effects_);
+  unmoved_.grams = grams(residual, {});
+  unmoved_.residuals = std::move(residual);
+}
+
+std::vector<Eigen::VectorXd> Model::residuals(const Predicted& predicted) const {
+  std::vector<Eigen::VectorXd> result(recording().runs.size());
+  tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t r) {
+    if (predicted.tracks[r].empty()) return;
+    const bool unmoved = !unmoved_.residuals.empty() && same(predicted.tracks[r], without_effects_.tracks[r]);
+    const Eigen::Index n = 3 * Eigen::Index(filters_[r].samples());
+    result[r].resize(n + kFeatureRows);
+    result[r].tail(kFeatureRows) = feature_rows(r, measured_, predicted);
+    if (unmoved)
+      result[r].head(n) = unmoved_.residuals[r].head(n);
+    else
+      result[r].head(n) = filters_[r].whiten(filters_[r].error(predicted.tracks[r], nominal_.truth[r]));
+  });
+  return result;
+}
+
+std::vector<Eigen::MatrixXd> Model::columns(const Predicted& at, const std::vector<Predicted>& stepped,
+                                            const std::vector<double>& steps) const {
+  std::vector<Eigen::MatrixXd> result(recording().runs.size());
+  tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t r) {
+    const Eigen::Index n = 3 * Eigen::Index(filters_[r].samples());
+    Eigen::MatrixXd raw(n, Eigen::Index(stepped.size()));
+    result[r].resize(n + kFeatureRows, raw.cols());
+    for (std::size_t j = 0; j < stepped.size(); ++j) {
+      raw.col(Eigen::Index(j)) = filters_[r].error(at.tracks[r], stepped[j].tracks[r]) / steps[j];
+      result[r].col(Eigen::Index(j)).tail(kFeatureRows) = feature_rows(r, stepped[j], at) / steps[j];
+    }
+    result[r].topRows(n) = filters_[r].whiten(raw);
+  });
+  return result;
+}
 
 // A step that ended elsewhere than foretold says how the derivatives along it really were (Broyden 1965). `scale`: of
 // the numbers.

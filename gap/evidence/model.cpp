@@ -79,9 +79,8 @@ void Model::observe() {
   std::vector<CountsColumns> counts;
   for (const std::size_t r : all_runs()) counts.push_back(alike_in_counts(r));
   nuisances_ = make_nuisances(nominal_, filters_, scatter_, drive, noise_floor_m_, counts);
-  products_of_nuisances_ = products_of_nuisances();
-  const Evidence seen = evidence(grams(residuals(without_effects_), {}), all_runs(), first_columns(nuisances()),
-                                 nuisances_.shared_sds.front());
+  look_without_effects();
+  const Evidence seen = evidence(unmoved_.grams, all_runs(), first_columns(nuisances()), nuisances_.shared_sds.front());
   settle_trackers(nuisances_, scatter_, seen.mean);
 }
 
@@ -126,33 +125,6 @@ std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& se
   return all;
 }
 
-std::vector<Eigen::VectorXd> Model::residuals(const Predicted& predicted) const {
-  std::vector<Eigen::VectorXd> result(recording().runs.size());
-  tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t r) {
-    if (predicted.tracks[r].empty()) return;
-    const Eigen::VectorXd white = filters_[r].whiten(filters_[r].error(predicted.tracks[r], nominal_.truth[r]));
-    result[r].resize(white.size() + kFeatureRows);
-    result[r] << white, feature_rows(r, measured_, predicted);
-  });
-  return result;
-}
-
-std::vector<Eigen::MatrixXd> Model::columns(const Predicted& at, const std::vector<Predicted>& stepped,
-                                            const std::vector<double>& steps) const {
-  std::vector<Eigen::MatrixXd> result(recording().runs.size());
-  tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t r) {
-    const Eigen::Index n = 3 * Eigen::Index(filters_[r].samples());
-    Eigen::MatrixXd raw(n, Eigen::Index(stepped.size()));
-    result[r].resize(n + kFeatureRows, raw.cols());
-    for (std::size_t j = 0; j < stepped.size(); ++j) {
-      raw.col(Eigen::Index(j)) = filters_[r].error(at.tracks[r], stepped[j].tracks[r]) / steps[j];
-      result[r].col(Eigen::Index(j)).tail(kFeatureRows) = feature_rows(r, stepped[j], at) / steps[j];
-    }
-    result[r].topRows(n) = filters_[r].whiten(raw);
-  });
-  return result;
-}
-
 // Products of the nuisances with each other are the same for every residual: most of the work, done once.
 std::vector<Eigen::MatrixXd> Model::products_of_nuisances() const {
   std::vector<Eigen::MatrixXd> products(nuisances_.shared.size());
@@ -169,8 +141,13 @@ std::vector<RunGram> Model::grams(const std::vector<Eigen::VectorXd>& residual,
                                   const std::vector<LocalColumns>& local) const {
   std::vector<RunGram> result(recording().runs.size());
   const Eigen::Index shared = nuisances();
+  const bool known = columns.empty() && local.empty() && !unmoved_.grams.empty();
   tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t r) {
     if (residual[r].size() == 0) return;
+    if (known && residual[r] == unmoved_.residuals[r]) {
+      result[r] = unmoved_.grams[r];
+      return;
+    }
     const Eigen::Index own = nuisances_.own_sd[r].size();
     const Eigen::Index effects = columns.empty() ? 0 : columns[r].cols();
     const Eigen::Index more = local.empty() ? 0 : local[r].columns.cols();

@@ -63,6 +63,13 @@ struct Fit {
   bool is_local() const;      ///< one of them is at a place or a moment
 };
 
+/// How a descent to the best numbers goes: for how many rounds, and to what share of a step that led down it goes back.
+/// What begins at a top goes back far: only how far derivatives hold is open there.
+struct Descending {
+  int rounds = 7;
+  double back = 0.5;
+};
+
 /// Whitened residuals near some numbers of effects: residual - columns (p' - p), per run.
 struct Linearisation {
   Eigen::VectorXd p;
@@ -193,8 +200,9 @@ class Model {
   /// Fits the free numbers of the hypotheses together, in the simulator. `start`: empty for the hypotheses' own.
   /// `runs`: that count; empty: all. `known`: derivatives that were taken elsewhere, and are used as long as they
   /// foretell where a step leads.
-  Fit fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& start = {}, int rounds = 7,
-          const std::vector<std::size_t>& runs = {}, const std::optional<Linearisation>& known = std::nullopt) const;
+  Fit fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& start = {},
+          const Descending& descending = {}, const std::vector<std::size_t>& runs = {},
+          const std::optional<Linearisation>& known = std::nullopt) const;
 
   /// The fit of all but one of a fit's hypotheses, from their numbers there.
   Fit without(const Fit& fit, std::size_t hypothesis) const;
@@ -214,6 +222,7 @@ class Model {
   static constexpr int kFeatureRows = kCountRows + int(std::tuple_size<CommandFeatures>::value);
 
   void observe();
+  void look_without_effects();  // when filters or nuisances are new
   std::vector<Eigen::MatrixXd> products_of_nuisances() const;
   double roughness_under(const std::vector<Effect>& effects) const;
   CountsSd counts_sd(std::size_t run) const;
@@ -222,7 +231,7 @@ class Model {
   Linearisation linearised(const Fit& fit) const;
   void take_derivatives(const Fit& at, Descent& d) const;
   Eigen::VectorXd solve(Fit& at, const std::vector<std::size_t>& runs, const Descent& d) const;
-  Fit descend(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& start, int rounds,
+  Fit descend(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& start, const Descending& descending,
               const std::vector<std::size_t>& runs, Descent& d, bool sure) const;
   void score(Fit& fit) const;
 
@@ -242,6 +251,11 @@ class Model {
   std::vector<TrackFilter> filters_;
   Nuisances nuisances_;
   std::vector<Eigen::MatrixXd> products_of_nuisances_;  ///< by run: shared, then the run's own
+  struct Unmoved {
+    std::vector<Eigen::VectorXd> residuals;
+    std::vector<RunGram> grams;
+  };
+  Unmoved unmoved_;  ///< runs without effects
   mutable double simulated_s_ = 0;
   mutable std::shared_ptr<const std::vector<PassedPlace>> passed_places_;
   mutable std::array<std::shared_ptr<const std::vector<std::vector<double>>>, 2> noise_m2_;  ///< as it was drawn

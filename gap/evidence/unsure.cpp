@@ -157,7 +157,7 @@ Model Model::unsure_of(const Fit& fit, const ErrorsOf& errors) const {
   n.usual_sd = with_more({n.usual_sd}, unsure.sd).front();
   n.unexplained_sd = with_zeros(n.unexplained_sd, more);
   n.engine_sd = with_zeros(n.engine_sd, more);
-  model.products_of_nuisances_ = model.products_of_nuisances();
+  model.look_without_effects();
   return model;
 }
 

@@ -209,7 +209,7 @@ Fit with_place_searched_again(const Model& model, const Fit& fit) {
   Eigen::VectorXd numbers = fit.p;
   numbers.segment(place->at, place->count) =
       subplex(density_beside_others(model, fit, *place), start, reach, min, max, kLeastStep, kMostTries);
-  const Fit again = model.fit(fit.hypotheses, numbers, kRoundsAgain);
+  const Fit again = model.fit(fit.hypotheses, numbers, {kRoundsAgain});
   return again.log_evidence > fit.log_evidence ? again : fit;
 }
 
@@ -224,7 +224,7 @@ std::vector<Fit> with_the_best_place(const Model& model, std::vector<Fit> fits) 
     Eigen::VectorXd numbers = fit.p;
     numbers.segment(own->at, own->count) = best->p.segment(place->at, place->count);
     if (numbers == fit.p) continue;
-    Fit again = with_place_searched_again(model, model.fit(fit.hypotheses, numbers, kRoundsAgain));
+    Fit again = with_place_searched_again(model, model.fit(fit.hypotheses, numbers, {kRoundsAgain}));
     if (again.log_evidence <= fit.log_evidence) continue;
     again.size = fit.size;
     again.seen = fit.seen;

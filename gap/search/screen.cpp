@@ -80,11 +80,15 @@ void Screen::simulate_steps() {
 void Screen::try_frictions(const Fit& fit, Candidate& c) const {
   c.gain = -1e9;
   if (model_.slips_at() == 0) return;
-  const auto density = density_beside(model_, fit, c.hypothesis, model_.one_of_each());
+  const std::vector<std::size_t> runs = model_.one_of_each();
+  const auto density = density_beside(model_, fit, c.hypothesis, runs);
+  const auto at_most = density_beside(model_, fit, c.hypothesis, {runs.front()});  // further runs only take from it
   double highest = -1e300;
   for (double less = -0.02; less < kSlippiest; less += std::clamp(kFriction * less, 0.01, kMostFriction)) {
     const double friction = model_.slips_at() * std::exp(-less);
-    const double there = density(Eigen::VectorXd::Constant(1, friction));
+    const Eigen::VectorXd numbers = Eigen::VectorXd::Constant(1, friction);
+    if (at_most(numbers) <= highest) continue;
+    const double there = density(numbers);
     if (there <= highest) continue;
     highest = there;
     c.start[0] = friction;

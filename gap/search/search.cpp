@@ -16,15 +16,15 @@ namespace {
 constexpr std::size_t kAdditionsFitted = 5;
 constexpr std::size_t kFewAdditions = 2;  // to runs that are searched again
 constexpr std::size_t kLocalSearches = 3;
-constexpr int kRounds = 7;
-constexpr int kFewerRounds = 4;         // what is there already has been fitted
-constexpr double kAnotherVariant = 3;   // log evidence by which a second hypothesis of one effect may promise less
-constexpr double kLocalHint = 0.25;     // of what explains all, below which no place or moment is searched for
-constexpr double kWorthASearch = 0.1;   // of what the best single effect explains, the same of the best start
-constexpr double kPartOfNeeded = 0.25;  // of what a further effect must bring, the same of its best start
-constexpr double kDoubtful = 0.3;       // of what a further effect must bring
-constexpr double kScreening = 0.2;      // of the time of single effects
-constexpr double kAdding = 0.75;        // of a stage's time that further effects take; the rest are exchanges
+constexpr Descending kFewerRounds{4};        // what is there already has been fitted
+constexpr Descending kFromTop{2, 1.0 / 64};  // where a search ended
+constexpr double kAnotherVariant = 3;        // log evidence by which a second hypothesis of one effect may promise less
+constexpr double kLocalHint = 0.25;          // of what explains all, below which no place or moment is searched for
+constexpr double kWorthASearch = 0.1;        // of what the best single effect explains, the same of the best start
+constexpr double kPartOfNeeded = 0.25;       // of what a further effect must bring, the same of its best start
+constexpr double kDoubtful = 0.3;            // of what a further effect must bring
+constexpr double kScreening = 0.2;           // of the time of single effects
+constexpr double kAdding = 0.75;             // of a stage's time that further effects take; the rest are exchanges
 
 }  // namespace
 
@@ -62,8 +62,9 @@ std::optional<Fit> ForwardSearch::tried(const Fit& base, const Screen::Candidate
     if (!from) return std::nullopt;
     Eigen::VectorXd start(base.p.size() + from->size());
     start << base.p, *from;
-    Fit fit = model_.fit(hypotheses, start, base.hypotheses.empty() ? kRounds : kFewerRounds, {},
-                         screen_.near(base, c.hypothesis));
+    const bool searched = c.reach.size() > 0;
+    const Descending descending = !base.hypotheses.empty() ? kFewerRounds : searched ? kFromTop : Descending{};
+    Fit fit = model_.fit(hypotheses, start, descending, {}, screen_.near(base, c.hypothesis));
     // A place may have been fitted so that it makes up for what is only now beside it. What takes part in the contact
     // would mend how another engine's robot is shaken there.
     if (base.is_local() && is_kinematic(c.hypothesis.effect) && c.gain > thresholds_.addition) {
