@@ -42,7 +42,8 @@ Eigen::VectorXd with_zeros(const Eigen::VectorXd& v, Eigen::Index more) {
 }
 
 // Columns that all runs share, in this order: of each effect its pieces, by group of runs and part of the course; what
-// counts show of each; the clock of each tracker; leads of each group, along and turning.
+// counts show of each; the clock of each tracker; leads of each group, along and turning; of each effect by part of the
+// course the turns that what it does along, and across, may come with.
 struct Unsure {
   Unsure(std::size_t effect_count, const RunGroups& run_groups, std::size_t trackers)
       : groups(run_groups),
@@ -51,15 +52,19 @@ struct Unsure {
         counts(pieces * effects),
         clocks(counts + effects),
         leads(clocks + Eigen::Index(trackers)),
-        sd(leads + 2 * Eigen::Index(groups.rolling.size())) {}
+        turns(leads + 2 * Eigen::Index(groups.rolling.size())),
+        sd(turns + 2 * Eigen::Index(kCourseParts) * effects) {}
 
   Eigen::Index piece(Eigen::Index effect, std::size_t run, std::size_t part) const {
     return effect * pieces + Eigen::Index(kCourseParts * groups.group_of[run] + part);
   }
+  Eigen::Index turn(Eigen::Index effect, std::size_t part, int axis) const {
+    return turns + 2 * (effect * Eigen::Index(kCourseParts) + Eigen::Index(part)) + axis;
+  }
   Eigen::Index lead(std::size_t run) const { return leads + 2 * Eigen::Index(groups.group_of[run]); }
 
   RunGroups groups;
-  Eigen::Index effects, pieces, counts, clocks, leads;
+  Eigen::Index effects, pieces, counts, clocks, leads, turns;
   Eigen::VectorXd sd;
 };
 
@@ -69,16 +74,24 @@ struct UnsureRun {
   Impulses3 more;
 };
 
-// What an effect adds to the motions of a run, cut by part of the course.
+// What an effect adds to the motions of a run, cut by part of the course, and the turns of a wheel that does this
+// alone.
 void add_effect(const Unsure& unsure, Eigen::Index effect, std::size_t run, const TrackFilter& filter,
-                const std::vector<CoursePart>& parts, const Impulses3& added, double motion, UnsureRun& to) {
+                const std::vector<CoursePart>& parts, const Impulses3& added, double motion, double wheelbase_m,
+                UnsureRun& to) {
   std::vector<Impulses3> cut(kCourseParts, Impulses3(added.size(), Eigen::Vector3d::Zero()));
   for (std::size_t k = 1; k < added.size(); ++k) {
     cut[parts[k]][k] = added[k];
     to.more[k] += (motion * added[k]).cwiseAbs2();
   }
-  for (std::size_t c = 0; c < kCourseParts; ++c)
+  for (std::size_t c = 0; c < kCourseParts; ++c) {
     to.columns.col(unsure.piece(effect, run, c)) = filter.propagate(cut[c]);
+    for (int axis = 0; axis < 2; ++axis) {
+      Impulses3 turns(added.size(), Eigen::Vector3d::Zero());
+      for (std::size_t k = 0; k < added.size(); ++k) turns[k][2] = cut[c][k][axis] / (wheelbase_m / 2);
+      to.columns.col(unsure.turn(effect, c, axis)) = filter.propagate(turns);
+    }
+  }
 }
 
 // Its tracker's clock, and leads of its poses, as the robot moves at these velocities.
@@ -104,6 +117,7 @@ Model Model::unsure_of(const Fit& fit) const {
     for (double& part : off.parts) part *= share;
     off.motion *= share;
     off.counts *= share;
+    off.turned = is_kinematic(effect) ? 0 : 1;
     return off;
   });
 }
@@ -123,10 +137,12 @@ Model Model::unsure_of(const Fit& fit, const ErrorsOf& errors) const {
     for (Eigen::Index c = 0; c < unsure.pieces; ++c)
       unsure.sd[i * unsure.pieces + c] = off.parts[std::size_t(c) % kCourseParts];
     unsure.sd[unsure.counts + i] = off.counts;
+    for (std::size_t c = 0; c < kCourseParts; ++c)
+      unsure.sd.segment<2>(unsure.turn(i, c, 0)).setConstant(off.turned * off.parts[c]);
     alone.push_back(unsure.effects == 1 ? fit.predicted : predict({effects_of(h, p)}).front());
   }
   unsure.sd.segment(unsure.clocks, unsure.leads - unsure.clocks).setConstant(scatter_.clock_s);
-  unsure.sd.tail(unsure.sd.size() - unsure.leads).setConstant(scatter_.lead_s);
+  unsure.sd.segment(unsure.leads, unsure.turns - unsure.leads).setConstant(scatter_.lead_s);
   const Eigen::Index more = unsure.sd.size();
   Nuisances& n = model.nuisances_;
   tbb::parallel_for(std::size_t(0), recording().runs.size(), [&](std::size_t r) {
@@ -141,7 +157,7 @@ Model Model::unsure_of(const Fit& fit, const ErrorsOf& errors) const {
       const std::vector<Pose2> standing(parts.size());
       const Impulses3 added = is_commanded_motion(effect) ? motion_errors(standing, nominal_.tracks[r])
                                                           : motion_errors(nominal_.tracks[r], with.tracks[r]);
-      add_effect(unsure, i, r, filters_[r], parts, added, errors(effect).motion, run);
+      add_effect(unsure, i, r, filters_[r], parts, added, errors(effect).motion, recording().robot.wheelbase_m, run);
       in_counts.col(unsure.counts + i) = feature_rows(r, with, without_effects_);
     }
     add_clock(unsure, r, campaign_->part_of[r], filters_[r], moved.velocity[r], run);

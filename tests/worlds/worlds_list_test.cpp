@@ -79,17 +79,6 @@ TEST(WorldsList, TheSameBytesOnAnyNumberOfThreadsAndInAnyShards) {
   EXPECT_EQ(drawn(list, {{1, 2}, {0, 2}}, 2), once);
 }
 
-TEST(WorldsList, EveryEngineGivesTheSameBytesAgain) {
-  for (const EngineKind& kind : engines()) {
-    const std::string steps = kind.name == "mujoco" ? "options: {step_s: 0.005}\n" : "";
-    const WorldsList list = list_of(text_of("engine: " + kind.name + "\n" + steps,
-                                            "  - {name: carpet, platform: small, effects: {carpet_drift: "
-                                            "{metres_per_metre: 0.01, direction_rad: 1}}}\n"));
-    const Bytes once = drawn(list, {{0, 1}}, 1);
-    EXPECT_EQ(drawn(list, {{1, 2}, {0, 2}}, 2), once) << kind.name;
-  }
-}
-
 // Commands are obeyed by wheels 2 % larger: the true way of a leg is 2 % longer than its counts say.
 TEST(WorldsList, TheEffectIsThatOfTheListAndItsAnswerIsSealed) {
   const WorldsList list = list_of(text_of("engine: ours\n", kCases));
