@@ -53,8 +53,6 @@ fs::path folder_of(const fs::path& recording, const std::string& id) {
   return folder;
 }
 
-void append(fmt::memory_buffer& text, std::string_view piece) { text.append(piece); }
-
 }  // namespace
 
 GrowingFile::GrowingFile(const fs::path& file) : name_(file.string()), file_(std::fopen(name_.c_str(), "wb")) {
@@ -87,10 +85,11 @@ RunWriter::RunWriter(const fs::path& recording, const std::string& id, bool has_
       has_commands_(has_commands),
       encoders_(folder_of(recording, id) / "encoders.csv"),
       truth_(recording / "runs" / id / "truth.csv") {
-  append(encoders_.text(), "time_s,left_ticks,right_ticks");
-  if (has_commands) append(encoders_.text(), ",left_command_radps,right_command_radps");
+  using namespace std::string_view_literals;
+  encoders_.text().append("time_s,left_ticks,right_ticks"sv);
+  if (has_commands) encoders_.text().append(",left_command_radps,right_command_radps"sv);
   encoders_.end_row();
-  append(truth_.text(), "time_s,x_m,y_m,theta_rad");
+  truth_.text().append("time_s,x_m,y_m,theta_rad"sv);
   truth_.end_row();
 }
 

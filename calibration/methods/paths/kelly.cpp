@@ -14,7 +14,6 @@
 namespace umbsim::calibration {
 namespace {
 
-constexpr int kParts = 8;
 constexpr int kRounds = 40;
 constexpr double kStepDone = 1e-8;
 constexpr double kNoiseDone = 1e-5;        // of the variances
@@ -136,7 +135,7 @@ Fit fit_kelly(const Runs& runs, const OdometryParameters& nominal) {
   Fit fit;
   Eigen::Matrix2d information = Eigen::Matrix2d::Identity();
   fit.scale_observed = true;
-  const CutRuns cut(runs, nominal, kParts);
+  const CutRuns cut(runs, nominal, kPartsOfARun);
   bool noise_rests = false, at_rest = false;
   for (int round = 0; round < kRounds && !at_rest; ++round) {
     std::vector<Row> rows;

@@ -8,7 +8,6 @@
 namespace umbsim::calibration {
 namespace {
 
-constexpr int kParts = 8;         // of a run; more gain little and weigh the tracker's noise more
 constexpr double kBlind = 1e6;    // condition number beyond which headings do not tell both wheels apart
 constexpr double kClosed = 0.05;  // of the way, that pieces must lead from start to end for positions to tell a scale
 
@@ -18,7 +17,7 @@ Fit fit_least_squares(const Runs& runs, const OdometryParameters& nominal) {
   // Step 1: theta_end - theta_start = (c_R / b) r - (c_L / b) l, with r and l by nominal radii over the wheelbase.
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
-  const CutRuns cut(runs, nominal, kParts);
+  const CutRuns cut(runs, nominal, kPartsOfARun);
   for (const Piece& p : cut.pieces(nominal)) {
     const Eigen::Vector2d row(-p.counted.left_m / nominal.wheelbase_m, p.counted.right_m / nominal.wheelbase_m);
     normal += p.run->weight * row * row.transpose();

@@ -14,6 +14,9 @@ struct Piece {
   Travel counted;
 };
 
+/// Of a run; more gain little and weigh the tracker's noise more.
+constexpr int kPartsOfARun = 8;
+
 /// The runs cut at `parts` nearly equal steps of their way and turning (one step where there are end points only).
 /// Places of the cuts do not depend on parameters that are fitted: an answer that moved them would jump.
 class CutRuns {
