@@ -12,7 +12,8 @@ const std::vector<Traits>& table() {
       {"wheel_radius_scale", "legs", kKinematic | kDimension, kRadius},
       {"wheel_radius_difference", "legs", kKinematic | kDimension, kRadius},
       {"wheelbase", "turns", kKinematic | kDimension},
-      {"wheel_misalignment", "legs", kScrubs},
+      // Toed wheels scrub: the yaw that it takes differs between tyres.
+      {"wheel_misalignment", "legs", kScrubs, kNothing, 0.25, kSlip | kRadius},
       {"wheel_eccentricity", "wheel_angle"},
       {"load_shift", "load"},
       {"wear", "runs", kKinematic | kByRun, kRadius},
