@@ -94,6 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Case, SecondEngine,
                                            Labelled{"case-09", "encoder_latency", "seconds", 0.1},
                                            Labelled{"case-10", "push", "impulse_newton_seconds", 22},
                                            Labelled{"case-11", "wheel_eccentricity", "right_m", 0.0015},
+                                           Labelled{"case-12", "wheel_misalignment", "right_toe_rad", 0.006},
                                            Labelled{"case-14", "none"}),
                          [](const auto& test) {
                            std::string name = test.param.folder;
