@@ -52,6 +52,8 @@ struct Labelled {
   double value = 0;
 };
 
+void PrintTo(const Labelled& label, std::ostream* out) { *out << label.folder; }
+
 class SecondEngine : public ::testing::TestWithParam<Labelled> {};
 
 TEST_P(SecondEngine, TheCauseIsNamed) {
