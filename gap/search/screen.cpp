@@ -13,6 +13,8 @@ namespace {
 
 // Frictions that are tried, as logarithms below the first at which wheels slip: steps in proportion, up to a bound.
 constexpr double kFriction = 0.4, kMostFriction = 0.08, kSlippiest = 1.8;
+// Tyres that are tried, as logarithms beside the usual ones, and how much more of what scrubs.
+constexpr double kSofterAlong = 1.4, kHarderAcross = 1.2, kMoreScrub = 3;
 constexpr double kTryCost = 3;  // log of how many frictions are tried, and for the width of what is held where it shows
 
 // Effects on how the robot is driven and read are tried where counts or commands show them.
@@ -103,6 +105,25 @@ void Screen::try_start(const Fit& fit, Candidate& c) const {
   c.gain = std::max(c.gain, density_on(model_, fit, c.hypothesis)(c.start) - before - kTryCost);
 }
 
+// How softly tyres grip moves what scrubs by orders of magnitude, and from hard tyres no derivative leads to soft ones:
+// a few of both are tried, with little and much scrub either way, on a few runs.
+void Screen::offer_tyres(const Fit& fit, Candidate& c) const {
+  const Eigen::Index own = c.start.size() - 2;
+  for (const double along : {0.0, kSofterAlong}) {
+    for (const double across : {0.0, -kHarderAcross}) {
+      for (const double size : {-kMoreScrub, -1.0, 1.0, kMoreScrub}) {
+        Eigen::VectorXd start = c.start;
+        start.head(own) *= size;
+        start.tail<2>() << along, across;
+        c.starts.push_back(std::move(start));
+      }
+    }
+  }
+  c.shown_by = model_.one_of_each();
+  const double before = model_.density_at(fit.hypotheses, fit.p);
+  c.gain = std::max(c.gain, keep_best_starts(model_, fit, c) - before - kTryCost);
+}
+
 std::optional<Linearisation> Screen::near(const Fit& fit, const Hypothesis& hypothesis) const {
   const auto same = [&](const Hypothesis& f) {
     return f.effect == hypothesis.effect && f.variant == hypothesis.variant;
@@ -186,6 +207,7 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
       try_start(fit, c);
     }
     if (is(c.hypothesis.effect, kThreshold)) try_frictions(fit, c);
+    if (is(c.hypothesis.effect, kScrubs) && c.hypothesis.with) offer_tyres(fit, c);
     c.gain += model_.log_chance({effect_of(c.hypothesis, c.start)});
   }
   offer_local(fit, candidates);

@@ -48,6 +48,7 @@ class Screen {
  private:
   void simulate_steps();
   void try_start(const Fit& fit, Candidate& c) const;
+  void offer_tyres(const Fit& fit, Candidate& c) const;
   void try_frictions(const Fit& fit, Candidate& c) const;
   void offer_local(const Fit& fit, std::vector<Candidate>& candidates) const;
 
