@@ -96,16 +96,16 @@ TEST(Draw, HeaderAndSizesSayNothingOfTheEffect) {
   }
 }
 
-// A world from every engine of this build: each can be read, has a sealed answer and says what it cost. Drawn again,
-// with other threads and shards, it is the same to the byte.
+// A handful of worlds from every engine of this build: each can be read, has a sealed answer and says what it cost.
+// Drawn again, with other threads and shards, it is the same to the byte.
 TEST(Draw, EveryEngineIsReadSealedAndTheSameAgain) {
   const WorldsPlan plan = plan_of(
       "format: umbsim-worlds/1\nname: handful\nseed: 5\nruns: [one_way]\ndrivers: [own, heading]\n"
-      "cases_per_engine: {single: 1}\n");
+      "cases_per_engine: {single: 1, outside: 1}\n");
   const ScratchFolder scratch;
   const TrialFolder folder(scratch.path() / "worlds");
   const DrawResult result = draw_worlds(plan, folder, {0, 1}, 1);
-  EXPECT_EQ(result.finished, engines().size());
+  EXPECT_EQ(result.finished, 2 * engines().size());
   const Json answers = read_json(folder.answers()).at("cases");
   for (const CaseEntry& entry : read_case_entries(folder)) {
     const Recording r = read_recording(folder.recordings() / entry.name);

@@ -12,7 +12,7 @@
 namespace umbsim::calibration {
 namespace {
 
-constexpr int kTurns = 3;  // parameters and noise in turn
+constexpr int kRounds = 3;  // parameters and noise in turn
 
 // Normal equations of every run in the common unknowns, its start eliminated.
 struct Reduced {
@@ -129,7 +129,7 @@ Fit fit_model(const Runs& runs, const OdometryParameters& nominal, bool scrub) {
   Model m = prepared(runs, nominal);
   m.scrub = scrub;
   Reduced all;
-  for (int round = 0; round < kTurns; ++round) {
+  for (int round = 0; round < kRounds; ++round) {
     set_whitening(m);
     if (round == 0) {
       all = reduced(m);
@@ -141,7 +141,7 @@ Fit fit_model(const Runs& runs, const OdometryParameters& nominal, bool scrub) {
       m.scale = check.observed;
     }
     solve(m);
-    if (round + 1 < kTurns) fit_noise(m);
+    if (round + 1 < kRounds) fit_noise(m);
   }
   Fit fit;
   fit.factors = {m.robot[0], m.robot[1], m.robot[2]};
