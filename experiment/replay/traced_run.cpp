@@ -62,22 +62,6 @@ class Happenings {
   std::vector<Disc> discs_;
 };
 
-// Many poses carried by one motion, whose sine and cosine are taken once.
-class Carried {
- public:
-  explicit Carried(const Pose2& motion)
-      : motion_(motion), c_(std::cos(motion.theta_rad)), s_(std::sin(motion.theta_rad)) {}
-
-  Pose2 operator()(const Pose2& X) const {
-    return {motion_.x_m + c_ * X.x_m - s_ * X.y_m, motion_.y_m + s_ * X.x_m + c_ * X.y_m,
-            motion_.theta_rad + X.theta_rad};
-  }
-
- private:
-  Pose2 motion_;
-  double c_, s_;
-};
-
 }  // namespace
 
 TracedRun traced(World& world, ShaftDrive shafts, bool moments) {
@@ -108,22 +92,16 @@ std::vector<Pose2> driven_near(World& world, const Rig& rig, const std::vector<P
   track.reserve(samples);
   Pose2 moved;  // to where the robot is now from where it was without
   const auto there = [&](std::size_t i) { return without.seen.empty() ? moved : without.seen[i / kEvery]; };
-  // The first sample from `i` on, so that something happens from there to the next.
-  const auto next_happening = [&](std::size_t i) {
-    Carried carried(there(i));
-    for (; i < samples; ++i) {
-      if (i % kEvery == 0) carried = Carried(there(i));
-      if (happenings.near(carried(without.track[i]))) break;
-      if (i + 1 == samples) continue;
-      if (happenings.near(carried(without.track[i + 1]))) break;
-      if (happenings.pushed(time_s(i) - kMargin_s, time_s(i + 1) + kMargin_s)) break;
-    }
-    return i;
+  // Something happens from here to the next sample.
+  const auto happens = [&](std::size_t i) {
+    return happenings.near(there(i) * without.track[i]) ||
+           (i + 1 < samples && happenings.near(there(i) * without.track[i + 1])) ||
+           (i + 1 < samples && happenings.pushed(time_s(i) - kMargin_s, time_s(i + 1) + kMargin_s));
   };
   while (track.size() < samples) {
-    const std::size_t next = next_happening(track.size());
-    const Carried carried(moved);
-    for (std::size_t i = track.size(); i < next; ++i) track.push_back(carried(without.track[i]));
+    std::size_t next = track.size();
+    while (next < samples && !happens(next)) ++next;
+    for (std::size_t i = track.size(); i < next; ++i) track.push_back(moved * without.track[i]);
     if (next == samples) break;
     const std::size_t from = next / kEvery * kEvery;
     const Pose2 back = moved * inverse(there(from));
