@@ -112,7 +112,8 @@ struct Diagnosed {
   std::vector<gap::NextExperiment> next;
 };
 
-Diagnosed diagnosed(const DiagnoseArguments& a, const GapRecordings& recordings, gap::Model& model, GapStages& stages) {
+Diagnosed diagnosed(const DiagnoseArguments& a, const GapRecordings& recordings, const gap::Model& model,
+                    GapStages& stages) {
   const gap::ProgressCallback progress = [&](const std::string& stage, double share) { stages.report(stage, share); };
   const std::set<std::string> excluded(a.excluded.begin(), a.excluded.end());
   Diagnosed done{gap::diagnose(model, excluded, gap::Thresholds{}, progress), {}};

@@ -26,8 +26,8 @@ double least_of_a_mend_mm2(const Hypothesis& h, const Closure& closure) {
 
 }  // namespace
 
-bool mends_contacts(const Model& model, const std::string& effect) {
-  return model.taken_for_another_engines() && may_mend(effect);
+bool mends_contacts(const Model& model, const Fit& fit, const std::string& effect) {
+  return model.another_engines(fit) && may_mend(effect);
 }
 
 void add_nothing(Closure& closure) {
@@ -64,7 +64,7 @@ void keep_what_foretells(const Model& model, Fit& twin, Closure& closure) {
     // How far each is from what it must bring.
     const auto least_mm2 = [&](std::size_t i) {
       const Hypothesis& h = twin.hypotheses[i];
-      return mends_contacts(model, h.effect) ? least_of_a_mend_mm2(h, closure) : 0;
+      return mends_contacts(model, twin, h.effect) ? least_of_a_mend_mm2(h, closure) : 0;
     };
     std::vector<double> lacks;
     for (std::size_t i = 0; i < closure.worth.size(); ++i) lacks.push_back(least_mm2(i) - worth_mm2(closure, i));

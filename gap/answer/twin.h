@@ -8,7 +8,7 @@
 namespace umbsim::gap {
 
 /// Whether an effect moves robots as another engine's contacts do: at a contact, or with every metre or turn.
-bool mends_contacts(const Model& model, const std::string& effect);
+bool mends_contacts(const Model& model, const Fit& fit, const std::string& effect);
 
 /// The closure of a twin that is the scenario as it was.
 void add_nothing(Closure& closure);

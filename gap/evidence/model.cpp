@@ -61,13 +61,6 @@ Model::Model(const Campaign& campaign, Simulator simulator, const Scatter& scatt
   observe();
 }
 
-void Model::take_for_another_engines() {
-  scatter_ = between_engines(scatter_);
-  taken_for_another_engines_ = true;
-  observe();
-  nuisances_.shared_sds.resize(nuisances_.of_another);
-}
-
 // The tracks as noise leaves them to be seen, and what is fitted always.
 void Model::observe() {
   noise_m2_ = {};

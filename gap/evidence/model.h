@@ -109,10 +109,12 @@ class Model {
   bool contacts_differ(const Fit& fit) const { return !same_engine(fit) && !fit.is_kinematic(); }
   /// By how much log evidence a fit says that another engine made the runs; 0 where it is not open.
   double another_engine(const Fit& fit) const;
-  bool surely_another_engines(const Fit& fit) const;
-  /// From now on the runs are another engine's: it differs from this one as measured between engines.
-  void take_for_another_engines();
-  bool taken_for_another_engines() const { return taken_for_another_engines_; }
+  /// Whether it says so. A real robot's runs are no engine's.
+  bool another_engines(const Fit& fit) const { return !tracker_is_free() && !same_engine(fit); }
+  /// From now on the runs are known to be another engine's.
+  void take_for_another_engines() { nuisances_.shared_sds.resize(nuisances_.of_another); }
+  /// This model, were engines to differ by little.
+  Model with_little_differences() const;
   double noise_floor_m() const { return noise_floor_m_; }
   bool replicated() const { return replicated_; }
   const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }
@@ -238,7 +240,6 @@ class Model {
   const Campaign* campaign_;
   Simulator simulator_;
   Scatter scatter_;
-  bool taken_for_another_engines_ = false;
   double step_rad_ = 0;  // between two counts, as wide as they really are
   std::vector<std::vector<Stretch>> stretches_;
   Predicted measured_;  // what was recorded, without tracks

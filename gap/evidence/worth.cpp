@@ -160,9 +160,10 @@ double Model::another_engine(const Fit& fit) const {
   return density(begin, same) - density(same, nuisance_sds().end());
 }
 
-bool Model::surely_another_engines(const Fit& fit) const {
-  constexpr double kSurely = 30;  // log evidence; right fits of this engine's runs have up to 18
-  return another_engine(fit) >= kSurely;
+Model Model::with_little_differences() const {
+  Model little = *this;
+  std::copy(nuisances_.little_sds.begin(), nuisances_.little_sds.end(), little.nuisances_.shared_sds.begin());
+  return little;
 }
 
 }  // namespace umbsim::gap

@@ -42,7 +42,8 @@ struct Layout {
 
 Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
   Eigen::VectorXd sd(layout.size());
-  sd.head(kCommon) << s.creep_across, 1, s.engine_gain, s.wheel_gain, s.lag_s, s.servo_s, s.course_gain, s.course_gain;
+  sd.head(kCommon) << s.creep_across, s.slip_share, s.engine_gain, s.wheel_gain, s.lag_s, s.servo_s, s.course_gain,
+      s.course_gain;
   for (std::size_t t = 0; t < layout.trackers.size(); ++t) {
     // A truth without noise is a simulator's.
     const double frame = layout.trackers[t]->truth_heading_sd_rad > 0 ? s.frame_rad : 0;
@@ -82,6 +83,21 @@ Eigen::VectorXd with_exact_trackers(Eigen::VectorXd sd, const Layout& layout, co
     sd.segment(layout.tracker(t), kPerTracker) << s.exact_marker_m, s.exact_marker_m, s.clock_s, 0;
   }
   return sd;
+}
+
+// With trackers mounted by hand, and with exact ones, where there may be any.
+std::vector<Eigen::VectorXd> by_mount(const Layout& layout, const Scatter& s) {
+  std::vector<Eigen::VectorXd> sds{shared_sd(layout, s)};
+  if (std::any_of(layout.trackers.begin(), layout.trackers.end(), may_be_exact))
+    sds.push_back(with_exact_trackers(sds.front(), layout, s));
+  return sds;
+}
+
+// Each of these, and each with servos that turn as they are told.
+std::vector<Eigen::VectorXd> of_another_engine(const Layout& layout, const Scatter& s) {
+  std::vector<Eigen::VectorXd> sds = by_mount(layout, s);
+  for (const Eigen::VectorXd& sd : by_mount(layout, s)) sds.push_back(with_exact_servos(sd, s));
+  return sds;
 }
 
 struct LittleSlip {
@@ -162,22 +178,22 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
                          const Drive& drive, double floor_m, const std::vector<CountsColumns>& counts) {
   const Layout layout(nominal);
   const RunGroups& groups = layout.groups;
+  const Scatter other = layout.any_free() ? scatter : between_engines(scatter);
   Nuisances n;
-  n.shared_sds = {shared_sd(layout, scatter)};
-  n.usual_sd = with_exact_servos(n.shared_sds.front(), scatter);
-  if (std::any_of(layout.trackers.begin(), layout.trackers.end(), may_be_exact))
-    n.shared_sds.push_back(with_exact_trackers(n.shared_sds.front(), layout, scatter));
+  n.shared_sds = of_another_engine(layout, other);
+  n.little_sds = of_another_engine(layout, scatter);
+  n.of_another = n.shared_sds.size();
+  n.usual_sd = n.little_sds[n.of_another / 2];
   for (std::size_t t = 0; t < layout.trackers.size(); ++t) {
     if (may_be_exact(layout.trackers[t])) n.markers.push_back(layout.tracker(t));
   }
-  const std::size_t mounts = n.shared_sds.size();
-  for (std::size_t i = 0; i < mounts; ++i) n.shared_sds.push_back(with_exact_servos(n.shared_sds[i], scatter));
-  n.of_another = n.shared_sds.size();
   n.engine_sd = Eigen::VectorXd::Zero(layout.size());
   n.engine_sd.head(layout.tracker(0)) = n.shared_sds.front().head(layout.tracker(0));
   n.unexplained_sd = Eigen::VectorXd::Zero(layout.size());
-  for (std::size_t i = 0; i < mounts && !layout.any_free(); ++i)
-    n.shared_sds.push_back(of_same_engine(n.shared_sds[i], layout, scatter));
+  if (!layout.any_free()) {
+    for (const Eigen::VectorXd& usual : by_mount(layout, scatter))
+      n.shared_sds.push_back(of_same_engine(usual, layout, scatter));
+  }
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
     const Eigen::Index first = layout.group(g);
     // Between turns in place only the moments at which a turn begins and ends roll in an arc: engines differ there.
@@ -189,7 +205,7 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   Effect creep = neutral_effect(find_effect("tyre_creep"));
   creep.values.numbers = {0, kCreep};
   const auto crept = drive({creep});
-  const auto [slipped, friction] = little_slip(nominal, drive, scatter.slip_share * floor_m);
+  const auto [slipped, friction] = little_slip(nominal, drive, other.slip_share * floor_m);
   n.slips_at = friction;
   for (std::size_t r = 0; r < nominal.runs(); ++r) {
     const Eigen::Index samples = Eigen::Index(filters[r].samples());
@@ -200,7 +216,7 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
       raw.block<3, 1>(3 * k, tracker + 2) = nominal.velocity[r][std::size_t(k)];
     }
     raw.col(kCreepColumn) = filters[r].error(nominal.tracks[r], crept[r]) / kCreep;
-    if (!slipped.empty()) raw.col(kSlipColumn) = filters[r].error(nominal.tracks[r], slipped[r]);
+    if (!slipped.empty()) raw.col(kSlipColumn) = filters[r].error(nominal.tracks[r], slipped[r]) / other.slip_share;
     const auto impulses = group_impulses(nominal, r);
     const Eigen::Index first = layout.group(groups.group_of[r]);
     for (int i = 0; i < kPerGroup; ++i) raw.col(first + i) = filters[r].propagate(impulses[std::size_t(i)]);
@@ -233,9 +249,11 @@ void settle_trackers(Nuisances& n, const Scatter& s, const Eigen::VectorXd& mean
   }
   if (exact <= 0) return;
   // Each mounted by hand stands before its exact one.
-  std::vector<Eigen::VectorXd> left;
-  for (std::size_t i = 1; i < n.shared_sds.size(); i += 2) left.push_back(std::move(n.shared_sds[i]));
-  n.shared_sds = std::move(left);
+  for (auto* sds : {&n.shared_sds, &n.little_sds}) {
+    std::vector<Eigen::VectorXd> left;
+    for (std::size_t i = 1; i < sds->size(); i += 2) left.push_back(std::move((*sds)[i]));
+    *sds = std::move(left);
+  }
   n.of_another /= 2;
 }
 

@@ -50,7 +50,8 @@ struct Nuisances {
   /// told. Then, if this engine made it, which runs show by how little they stray.
   std::vector<Eigen::VectorXd> shared_sds;
   std::size_t of_another = 0;
-  Eigen::VectorXd usual_sd;           ///< the first of these, with exact servos: runs are planned so
+  std::vector<Eigen::VectorXd> little_sds;  ///< the first `of_another`, were engines to differ by little
+  Eigen::VectorXd usual_sd;                 ///< the first of the latter, with exact servos: runs are planned so
   std::vector<Eigen::Index> markers;  ///< of trackers that may be exact: first of two numbers, the point that each sees
   Eigen::VectorXd unexplained_sd;     ///< of the same numbers, if errors of no particular cause stood behind them
   std::vector<Eigen::MatrixXd> shared;  ///< one number for all runs that it acts in

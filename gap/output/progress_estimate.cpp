@@ -12,7 +12,6 @@ constexpr int kFirst = 2;
 constexpr double kHalfDone = 0.5;
 constexpr double kShortest_s = 1e-3;
 constexpr double kNeverWhole = 0.99;
-constexpr double kFollows = 0.999;  // comes if the stage before it has come
 
 }  // namespace
 
@@ -25,12 +24,6 @@ std::vector<UsualStage> stages_of_diagnosis() {
           {"fitting combinations of three", 3, 0.5},
           {"held-out runs", 0.01},
           {"what no effect explains", 0.2},
-          {"for another engine: signatures of the effects", 1, 0.1, 41},
-          {"for another engine: fitting single effects", 2.3, kFollows},
-          {"for another engine: fitting pairs of effects", 2.5, 0.8},
-          {"for another engine: fitting combinations of three", 3, 0.5},
-          {"for another engine: held-out runs", 0.01, kFollows},
-          {"for another engine: what no effect explains", 0.2, kFollows},
           {"what could be another effect", 0.1},
           {"what to drive next", 1, 0.4}};
 }

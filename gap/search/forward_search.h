@@ -13,7 +13,8 @@ namespace umbsim::gap {
 /// Forward from single effects, with a look back at what the first one should have been (exchange.cpp).
 class ForwardSearch {
  public:
-  ForwardSearch(const Model& model, Screen& screen, const Thresholds& thresholds, const ProgressCallback& progress)
+  ForwardSearch(const Model& model, const Screen& screen, const Thresholds& thresholds,
+                const ProgressCallback& progress)
       : model_(model),
         screen_(screen),
         thresholds_(thresholds),
@@ -39,14 +40,13 @@ class ForwardSearch {
   void fit_promising(std::vector<Screen::Candidate>& singles, bool local, Part part);
   void fit_dimensions();
   bool idle(Screen::Candidate& c, double most) const;
-  bool follow_best(const Fit& best, std::vector<Fit>& paying);
   void add_to(const Fit& base, std::size_t most, Part part, std::vector<Fit>& paying);
   void swap(std::vector<Fit>& frontier);
   void swap_one(const Fit& whole, std::vector<Fit>& paying);
   void exchange(const Fit& whole, std::size_t out, std::vector<Fit>& paying);
 
   const Model& model_;
-  Screen& screen_;
+  const Screen& screen_;
   const Thresholds& thresholds_;
   const ProgressCallback& progress_;
   std::string stage_;

@@ -11,14 +11,6 @@ namespace {
 
 constexpr double kLeastImpulse = 10;  // log evidence below which a place or a moment would not pay
 
-// What is seen at places and at moments, as strong as the strongest of `others` at most.
-void no_stronger_than(const Impulses& others, Impulses& impulses) {
-  const double place = others.places.empty() ? 0 : others.places.front().gain;
-  const double moment = others.moments.empty() ? 0 : others.moments.front().gain;
-  for (PlaceImpulse& p : impulses.places) p.gain = std::min(p.gain, place);
-  for (Impulse& m : impulses.moments) m.gain = std::min(m.gain, moment);
-}
-
 // The leg that a moment belongs to, and the seconds since its start; before the first leg: leg 0.
 std::pair<int, double> leg_at(const std::vector<Stretch>& stretches, double time_s) {
   std::pair<int, double> leg{0, 0};
@@ -32,8 +24,7 @@ std::pair<int, double> leg_at(const std::vector<Stretch>& stretches, double time
 
 // Places and moments where something happened that `fit` leaves.
 void Screen::offer_local(const Fit& fit, std::vector<Candidate>& candidates) const {
-  Impulses impulses = find_impulses(model_, fit);
-  if (another_) no_stronger_than(find_impulses(*another_, another_->held(fit)), impulses);
+  const Impulses impulses = find_impulses(model_, fit);
   const double R = model_.recording().robot.wheel_radius_m;
   // Two local events at once are not looked for: the second would mend the first one's shape.
   if (fit.is_local()) return;

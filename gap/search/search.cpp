@@ -14,7 +14,6 @@ namespace umbsim::gap {
 namespace {
 
 constexpr std::size_t kAdditionsFitted = 5;
-constexpr std::size_t kFewAdditions = 2;  // to runs that are searched again
 constexpr std::size_t kLocalSearches = 3;
 constexpr Descending kFewerRounds{4};        // what is there already has been fitted
 constexpr Descending kFromTop{2, 1.0 / 64};  // where a search ended
@@ -37,7 +36,6 @@ Found ForwardSearch::run() {
     const std::vector<Fit> from = bases(model_, none_, std::move(frontier), thresholds_);
     if (from.empty() || from.front().log_evidence < none_.log_evidence + thresholds_.detect) break;
     begin(depth == 2 ? "fitting pairs of effects" : "fitting combinations of three");
-    if (follow_best(from.front(), frontier)) continue;
     for (std::size_t i = 0; i < from.size(); ++i) {
       add_to(from[i], kAdditionsFitted, {kAdding * double(i) / double(from.size()), kAdding / double(from.size())},
              frontier);
@@ -103,13 +101,6 @@ void ForwardSearch::fit_singles() {
     if (!fresh) of_effect->second = std::min(of_effect->second, c.p_value);
   }
   fit_promising(singles, false, {kScreening, (1 - kScreening) / 2});
-  // Another engine's contacts jolt the robot where nothing is.
-  if (model_.surely_another_engines(*std::max_element(fits_.begin(), fits_.end(), less_evidence))) {
-    Model another = model_;
-    another.take_for_another_engines();
-    screen_.look_through(std::move(another));
-    singles = screen_.on_top_of(none_);
-  }
   fit_promising(singles, true, {(1 + kScreening) / 2, (1 - kScreening) / 2});
 }
 
@@ -165,20 +156,6 @@ bool ForwardSearch::idle(Screen::Candidate& c, double most) const {
   return keep_best_starts(model_, none_, c) - none_.log_evidence < rival;
 }
 
-// Runs that are surely another engine's, whatever is added, are searched again as such. Here the best fit and its
-// likeliest further effects are enough to tell that. False, and nothing in `paying`, where they are not.
-bool ForwardSearch::follow_best(const Fit& best, std::vector<Fit>& paying) {
-  paying.clear();
-  if (!model_.surely_another_engines(best)) return false;
-  const std::size_t known = fits_.size();
-  add_to(best, kFewAdditions, {0, kAdding}, paying);
-  if (!paying.empty() && model_.surely_another_engines(*std::max_element(paying.begin(), paying.end(), less_evidence)))
-    return true;
-  fits_.erase(fits_.begin() + std::ptrdiff_t(known), fits_.end());
-  paying.clear();
-  return false;
-}
-
 // Fits of `base` and one effect more that pay; `most`: that are fitted.
 void ForwardSearch::add_to(const Fit& base, std::size_t most, Part part, std::vector<Fit>& paying) {
   const Needed needed = addition_needed(model_, base, none_, thresholds_);
@@ -213,7 +190,7 @@ void ForwardSearch::add_to(const Fit& base, std::size_t most, Part part, std::ve
   }
 }
 
-Found search(const Model& model, Screen& screen, const Thresholds& thresholds, const ProgressCallback& progress) {
+Found search(const Model& model, const Screen& screen, const Thresholds& thresholds, const ProgressCallback& progress) {
   return ForwardSearch(model, screen, thresholds, progress).run();
 }
 

@@ -31,9 +31,6 @@ class Screen {
     /// Of its numbers against none, were it the only effect asked about (chi-squared); 1 where a hypothesis bends.
     double p_value = 1;
   };
-  /// From now on no place or moment is offered that a model of another engine's runs does not see.
-  void look_through(Model another) { another_.emplace(std::move(another)); }
-
   /// Hypotheses that could explain what `fit` leaves, best first; local ones (places, moments) are searched for anew.
   std::vector<Candidate> on_top_of(const Fit& fit) const;
 
@@ -53,7 +50,6 @@ class Screen {
   void offer_local(const Fit& fit, std::vector<Candidate>& candidates) const;
 
   const Model& model_;
-  std::optional<Model> another_;
   std::set<std::string> excluded_;
   std::vector<Hypothesis> hypotheses_;
   std::vector<std::pair<int, int>> range_;  // of each hypothesis's columns
@@ -74,6 +70,6 @@ struct Found {
 };
 
 /// Forward from single effects, to thresholds.most_effects of them.
-Found search(const Model& model, Screen& screen, const Thresholds& thresholds, const ProgressCallback& progress);
+Found search(const Model& model, const Screen& screen, const Thresholds& thresholds, const ProgressCallback& progress);
 
 }  // namespace umbsim::gap

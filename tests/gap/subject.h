@@ -21,8 +21,7 @@ struct Subject {
         campaign(gap::campaign_of(recording)),
         model(campaign, simulator(replay), gap::Scatter{}) {}
   gap::Diagnosis diagnosed(const std::set<std::string>& excluded = {}) const {
-    gap::Model taken = model;  // for another engine's, it may be
-    return gap::diagnose(taken, excluded, gap::Thresholds{}, [](const std::string&, double) {});
+    return gap::diagnose(model, excluded, gap::Thresholds{}, [](const std::string&, double) {});
   }
 
   static Scenario with_effects(Scenario s, const std::vector<Effect>& effects) {

@@ -173,12 +173,12 @@ TEST(Unknown, WhatAPlaceTakesAwayIsNotCounted) {
 // On another engine's runs a radius or a wheelbase may mend its contacts. On this engine's they do not.
 TEST(Unknown, DimensionsAndContactsMendAnotherEngine) {
   Subject p(campaign({}, 65));
-  EXPECT_FALSE(mends_contacts(p.model, "wheelbase"));
+  EXPECT_FALSE(mends_contacts(p.model, p.model.none(), "wheelbase"));
   p.model.take_for_another_engines();
   for (const char* effect : {"wheelbase", "wheel_radius_scale", "tyre_creep", "slippery_floor"})
-    EXPECT_TRUE(mends_contacts(p.model, effect)) << effect;
+    EXPECT_TRUE(mends_contacts(p.model, p.model.none(), effect)) << effect;
   for (const char* effect : {"wear", "encoder_latency", "wheel_eccentricity", "fast_turning"})
-    EXPECT_FALSE(mends_contacts(p.model, effect)) << effect;
+    EXPECT_FALSE(mends_contacts(p.model, p.model.none(), effect)) << effect;
 }
 
 }  // namespace
