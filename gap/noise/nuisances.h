@@ -8,8 +8,8 @@
 
 namespace umbsim::gap {
 
-/// How far one engine's contact model may be from another's, and a robot from its own runs: standard deviations of
-/// scatter that no effect of the catalogue is needed for.
+/// How far a robot's contacts may be from the simulator's, and a robot from its own runs: standard deviations of scatter
+/// that no effect of the catalogue is needed for.
 struct Scatter {
   double radius = 6e-5;         ///< of a wheel's radius from run to run
   double real_radius = 2e-4;    ///< the same where the tracker is free: a real robot's tyres warm and wear
@@ -40,7 +40,7 @@ struct Scatter {
   double same_servos = 0.03;    ///< and of what their servos do
 };
 
-/// The same where another engine is known to have made the runs, as measured between four of them (docs/worlds.md).
+/// The same where another engine made the runs, as measured between four of them (docs/worlds.md).
 Scatter between_engines(Scatter scatter);
 
 /// Columns that are fitted always and credited to nobody. Per run, whitened; outer index: run.

@@ -65,7 +65,7 @@ bool shows_in_counts(const EffectInfo& info) {
 
 bool is_contact(const std::string& effect) {
   const EffectInfo& info = find_effect(effect);
-  const bool of_contact = info.stage == Stage::contact || info.stage == Stage::floor || is(effect, kScrubs);
+  const bool of_contact = info.stage == Stage::contact || info.stage == Stage::floor;
   return of_contact && !is_kinematic(effect) && !shows_in_counts(info);
 }
 
