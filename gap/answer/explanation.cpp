@@ -182,8 +182,9 @@ bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
   return !w.may_name(kUnevenFloor) || !may_be_uneven_floor(w.model, w.none);
 }
 
-// The fit of what counts show, or else of what rolls, and, if there is a gap to close, of what the world does at a place
-// or along a direction, or a toed wheel to one side: engines differ wherever wheels touch the floor, and all round.
+// The fit of what counts show, or else of what rolls, and, if there is a gap to close, of what the world does at a
+// place or along a direction, or a toed wheel to one side: engines differ wherever wheels touch the floor, and all
+// round.
 Fit without_contacts(const Context& w, Fit fit, const Closure& closure) {
   const auto counted = [](const Hypothesis& h) { return shows_in_counts(h); };
   const bool any_counted = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(), counted);
