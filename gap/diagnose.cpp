@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "gap/answer/answer_set.h"
@@ -31,6 +32,12 @@ void measure(const Context& w, const LeftUnexplained& left, const Fit& best, Dia
   d.noise_floor_mm = 1000 * w.model.noise_floor_m();
 }
 
+// Differences of engines may be all that a cause leaves. They excuse what is left only where the cause takes more off
+// held-out runs than it leaves there.
+bool excused(const Model& model, const Fit& fit, const Closure& closure) {
+  return !model.another_engines(fit) || closure.takes_more_than_it_leaves();
+}
+
 }  // namespace
 
 Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, const Thresholds& t,
@@ -45,15 +52,27 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   prefer_what_predicts(model, d.causes, t);
   prefer_kinematic(d.causes);
   progress("what no effect explains", 0);
-  const double none_if_little = model.with_little_differences().none().log_evidence;
-  const Context context{
-      model, screen, excluded, t, none, left_unexplained(model, none, t), std::min(none.log_evidence, none_if_little)};
+  Context context{model,
+                  &model,
+                  screen,
+                  excluded,
+                  t,
+                  none,
+                  left_unexplained(model, none, t),
+                  std::min(none.log_evidence, model.with_little_differences().none().log_evidence)};
   detect(context, d);
   Fit best = d.causes.front().fit;
-  const LeftUnexplained left = left_beside(model, best, t);
+  bool hidden = false;
+  std::optional<Model> little;
+  if (d.detected) {
+    d.closure = held_out_closure(model, best);
+    hidden = hidden_in_noise(context, best, d.closure);
+    if (!hidden && !excused(model, best, d.closure)) context.judge = &little.emplace(model.with_little_differences());
+  }
+  const LeftUnexplained left = left_beside(*context.judge, best, t);
   d.unexplained = d.detected && left.all() > t.detect;
   d.unexplained_p = chi_squared_tail(2 * std::max(0.0, left.all()), 2);
-  if (d.detected) explain(context, left, best, d);
+  if (d.detected) explain(context, left, hidden, best, d);
   give_probabilities(d.causes);
   measure(context, left, best, d);
   fill_set(context, found, left, best, d);

@@ -11,6 +11,8 @@ namespace umbsim::gap {
 /// What all steps of an answer share.
 struct Context {
   const Model& model;
+  /// In which it is asked what a cause leaves: the same, or one in which engines differ by little.
+  const Model* judge;
   const Screen& screen;
   const std::set<std::string>& excluded;
   const Thresholds& thresholds;
@@ -21,7 +23,10 @@ struct Context {
   const double none_log_evidence;
 
   /// Log evidence over no effect.
-  double explained_by(const Fit& fit) const { return fit.log_evidence - none_log_evidence; }
+  double explained_by(const Fit& fit) const {
+    if (judge == &model) return fit.log_evidence - none_log_evidence;
+    return judge->held_density(fit) - judge->held_density(none);
+  }
   bool may_name(const std::string& effect) const { return excluded.count(effect) == 0; }
 };
 

@@ -85,17 +85,6 @@ bool named_without_fit(const Context& w, const LeftUnexplained& left, Fit& best,
   return true;
 }
 
-// Differences of engines may be all that a cause leaves. They excuse what is left only where the cause takes more off
-// held-out runs than it leaves there.
-bool leaves_too_much(const Context& w, const Fit& best, const LeftUnexplained& left, const Closure& closure) {
-  const bool differ = w.model.contacts_differ(best);
-  if (!w.model.another_engines(best) || closure.takes_more_than_it_leaves())
-    return is_unknown(left, w.left_by_none, w.explained_by(best), differ, w.thresholds);
-  const Model little = w.model.with_little_differences();
-  const double explained = little.held_density(best) - little.held_density(w.none);
-  return is_unknown(left_beside(little, best, w.thresholds), w.left_by_none, explained, differ, w.thresholds);
-}
-
 // "unknown" among the causes: ahead of them, or behind.
 void add_unknown(const Context& w, const Fit& best, bool leads, double leftover, Diagnosis& d) {
   Cause cause{"unknown", best, 0, 0};
@@ -169,19 +158,6 @@ void leave_the_ordinary_out(const Context& w, Fit& best, Diagnosis& d) {
   }
 }
 
-// Whether another engine made recordings whose tracks stray by no more than noise makes them. What contacts do is no
-// gap then: they differ from engine to engine.
-bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
-  const bool another = w.model.another_engines(fit);
-  if (!another && w.model.same_engine(fit)) return false;
-  const double before_mm = in_sample_error_mm(w.model, w.none), after_mm = in_sample_error_mm(w.model, fit);
-  if (before_mm > most_hidden_mm(w.model, another)) return false;
-  // Where no run could be held out: noise is not explained by more than half.
-  if (!another && closure.before_mm == 0 && after_mm < before_mm / 2) return false;
-  // What comes again wherever runs pass the same places is the floor's.
-  return !w.may_name(kUnevenFloor) || !may_be_uneven_floor(w.model, w.none);
-}
-
 // The fit of what counts show, or else of what rolls, and, if there is a gap to close, of what the world does at a
 // place or along a direction, or a toed wheel to one side: engines differ wherever wheels touch the floor, and all
 // round.
@@ -235,12 +211,24 @@ void detect(const Context& w, Diagnosis& d) {
   if (!d.detected) put_none_first(t, d);
 }
 
-void explain(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis& d) {
-  d.closure = held_out_closure(w.model, best);
-  const bool hidden = hidden_in_noise(w, best, d.closure);
+bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
+  const bool another = w.model.another_engines(fit);
+  if (!another && w.model.same_engine(fit)) return false;
+  const double before_mm = in_sample_error_mm(w.model, w.none), after_mm = in_sample_error_mm(w.model, fit);
+  if (before_mm > most_hidden_mm(w.model, another)) return false;
+  // Where no run could be held out: noise is not explained by more than half.
+  if (!another && closure.before_mm == 0 && after_mm < before_mm / 2) return false;
+  // What comes again wherever runs pass the same places is the floor's.
+  if (!w.may_name(kUnevenFloor)) return true;
+  return !may_be_uneven_floor(w.model, w.none) && !find_uneven_floor(w.model, w.none);
+}
+
+void explain(const Context& w, const LeftUnexplained& left, bool hidden, Fit& best, Diagnosis& d) {
   if (hidden && !name_beside_noise(w, best, d)) return;
-  const bool unknown = !hidden && !worth_more_than_rest(w.model, best, d.closure) &&
-                       leaves_too_much(w, best, left, d.closure) && !named_without_fit(w, left, best, d);
+  const bool unknown =
+      !hidden && !worth_more_than_rest(w.model, best, d.closure) &&
+      is_unknown(left, w.left_by_none, w.explained_by(best), w.model.contacts_differ(best), w.thresholds) &&
+      !named_without_fit(w, left, best, d);
   add_unknown(w, best, unknown, left.all(), d);
   d.left_over = describe_left_over(w.model, best);
   d.explanation = best;

@@ -109,10 +109,11 @@ class Model {
   bool contacts_differ(const Fit& fit) const { return !same_engine(fit) && !fit.is_kinematic(); }
   /// By how much log evidence a fit says that another engine made the runs; 0 where it is not open.
   double another_engine(const Fit& fit) const;
-  /// Whether it says so. A real robot's runs are no engine's.
-  bool another_engines(const Fit& fit) const { return !tracker_is_free() && !same_engine(fit); }
-  /// From now on the runs are known to be another engine's.
-  void take_for_another_engines() { nuisances_.shared_sds.resize(nuisances_.of_another); }
+  /// Whether it says that one did which differs from this by as much as engines do. A real robot's runs are no
+  /// engine's.
+  bool another_engines(const Fit& fit) const { return fit.prior < nuisances_.wide; }
+  /// From now on the runs are known to be such an engine's; not for a real robot's.
+  void take_for_another_engines();
   /// This model, were engines to differ by little.
   Model with_little_differences() const;
   double noise_floor_m() const { return noise_floor_m_; }

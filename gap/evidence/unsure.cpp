@@ -143,7 +143,7 @@ Model Model::unsure_of(const Fit& fit, const ErrorsOf& errors) const {
   }
   unsure.sd.segment(unsure.clocks, unsure.leads - unsure.clocks).setConstant(scatter_.clock_s);
   unsure.sd.segment(unsure.leads, unsure.turns - unsure.leads)
-      .setConstant(another_engines(fit) ? between_engines(scatter_).lead_s : scatter_.lead_s);
+      .setConstant(another_engines(fit) ? nuisances_.lead_s : 0);
   const Eigen::Index more = unsure.sd.size();
   Nuisances& n = model.nuisances_;
   tbb::parallel_for(std::size_t(0), recording().runs.size(), [&](std::size_t r) {

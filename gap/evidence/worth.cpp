@@ -162,8 +162,16 @@ double Model::another_engine(const Fit& fit) const {
 
 Model Model::with_little_differences() const {
   Model little = *this;
-  std::copy(nuisances_.little_sds.begin(), nuisances_.little_sds.end(), little.nuisances_.shared_sds.begin());
+  Nuisances& n = little.nuisances_;
+  n.shared_sds.erase(n.shared_sds.begin(), n.shared_sds.begin() + std::ptrdiff_t(n.wide));
+  n.of_another -= n.wide;
+  n.wide = 0;
   return little;
+}
+
+void Model::take_for_another_engines() {
+  nuisances_.shared_sds.resize(nuisances_.wide);
+  nuisances_.of_another = nuisances_.wide;
 }
 
 }  // namespace umbsim::gap

@@ -180,10 +180,13 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   const RunGroups& groups = layout.groups;
   const Scatter other = layout.any_free() ? scatter : between_engines(scatter);
   Nuisances n;
-  n.shared_sds = of_another_engine(layout, other);
-  n.little_sds = of_another_engine(layout, scatter);
+  if (!layout.any_free()) n.shared_sds = of_another_engine(layout, other);
+  n.wide = n.shared_sds.size();
+  const std::vector<Eigen::VectorXd> little = of_another_engine(layout, scatter);
+  n.shared_sds.insert(n.shared_sds.end(), little.begin(), little.end());
   n.of_another = n.shared_sds.size();
-  n.usual_sd = n.little_sds[n.of_another / 2];
+  n.usual_sd = little[little.size() / 2];
+  n.lead_s = other.lead_s;
   for (std::size_t t = 0; t < layout.trackers.size(); ++t) {
     if (may_be_exact(layout.trackers[t])) n.markers.push_back(layout.tracker(t));
   }
@@ -249,11 +252,10 @@ void settle_trackers(Nuisances& n, const Scatter& s, const Eigen::VectorXd& mean
   }
   if (exact <= 0) return;
   // Each mounted by hand stands before its exact one.
-  for (auto* sds : {&n.shared_sds, &n.little_sds}) {
-    std::vector<Eigen::VectorXd> left;
-    for (std::size_t i = 1; i < sds->size(); i += 2) left.push_back(std::move((*sds)[i]));
-    *sds = std::move(left);
-  }
+  std::vector<Eigen::VectorXd> left;
+  for (std::size_t i = 1; i < n.shared_sds.size(); i += 2) left.push_back(std::move(n.shared_sds[i]));
+  n.shared_sds = std::move(left);
+  n.wide /= 2;
   n.of_another /= 2;
 }
 

@@ -8,8 +8,8 @@
 
 namespace umbsim::gap {
 
-/// How far a robot's contacts may be from the simulator's, and a robot from its own runs: standard deviations of scatter
-/// that no effect of the catalogue is needed for.
+/// How far a robot's contacts may be from the simulator's, and a robot from its own runs: standard deviations of
+/// scatter that no effect of the catalogue is needed for.
 struct Scatter {
   double radius = 6e-5;         ///< of a wheel's radius from run to run
   double real_radius = 2e-4;    ///< the same where the tracker is free: a real robot's tyres warm and wear
@@ -45,13 +45,15 @@ Scatter between_engines(Scatter scatter);
 
 /// Columns that are fitted always and credited to nobody. Per run, whitened; outer index: run.
 struct Nuisances {
-  /// First `of_another`, if another engine, or a robot, made the recording: with a tracker that was mounted by hand
-  /// and, where its header does not speak against it, with an exact one; both again with servos that turn as they are
-  /// told. Then, if this engine made it, which runs show by how little they stray.
+  /// First `wide`, if an engine made the recording that differs from this one by as much as engines do: with a tracker
+  /// that was mounted by hand and, where its header does not speak against it, with an exact one; both again with
+  /// servos that turn as they are told. Up to `of_another` the same, if engines, or a robot, differ by little. Then, if
+  /// this engine made it, which runs show by how little they stray.
   std::vector<Eigen::VectorXd> shared_sds;
+  std::size_t wide = 0;
   std::size_t of_another = 0;
-  std::vector<Eigen::VectorXd> little_sds;  ///< the first `of_another`, were engines to differ by little
-  Eigen::VectorXd usual_sd;                 ///< the first of the latter, with exact servos: runs are planned so
+  double lead_s = 0;         ///< of the poses of the first (Scatter)
+  Eigen::VectorXd usual_sd;  ///< of a hand-mounted tracker, little differences and exact servos: runs are planned so
   std::vector<Eigen::Index> markers;  ///< of trackers that may be exact: first of two numbers, the point that each sees
   Eigen::VectorXd unexplained_sd;     ///< of the same numbers, if errors of no particular cause stood behind them
   std::vector<Eigen::MatrixXd> shared;  ///< one number for all runs that it acts in
