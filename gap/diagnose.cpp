@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "gap/answer/answer_set.h"
@@ -52,22 +51,16 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   prefer_what_predicts(model, d.causes, t);
   prefer_kinematic(d.causes);
   progress("what no effect explains", 0);
-  Context context{model,
-                  &model,
-                  screen,
-                  excluded,
-                  t,
-                  none,
-                  left_unexplained(model, none, t),
-                  std::min(none.log_evidence, model.with_little_differences().none().log_evidence)};
+  const Model little = model.with_little_differences();
+  const double none_log_evidence = std::min(none.log_evidence, little.none().log_evidence);
+  Context context{model, &model, screen, excluded, t, none, left_unexplained(model, none, t), none_log_evidence};
   detect(context, d);
   Fit best = d.causes.front().fit;
   bool hidden = false;
-  std::optional<Model> little;
   if (d.detected) {
     d.closure = held_out_closure(model, best);
     hidden = hidden_in_noise(context, best, d.closure);
-    if (!hidden && !excused(model, best, d.closure)) context.judge = &little.emplace(model.with_little_differences());
+    if (!hidden && !excused(model, best, d.closure)) context.judge = &little;
   }
   const LeftUnexplained left = left_beside(*context.judge, best, t);
   d.unexplained = d.detected && left.all() > t.detect;

@@ -7,7 +7,8 @@
 
 namespace umbsim::gap {
 
-/// Whether an effect moves robots as another engine's contacts do: at a contact, or with every metre or turn.
+/// Whether a fit says that another engine made the runs, and an effect moves robots as its contacts do: at a contact,
+/// or with every metre or turn.
 bool mends_contacts(const Model& model, const Fit& fit, const std::string& effect);
 
 /// The closure of a twin that is the scenario as it was.
