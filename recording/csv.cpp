@@ -12,7 +12,6 @@ namespace umbsim {
 namespace {
 
 constexpr std::size_t kMaxCsvBytes = std::size_t(1) << 30;
-constexpr std::int64_t kMaxInteger = std::int64_t(1) << 53;
 constexpr std::size_t kMaxShownCharacters = 60;
 constexpr std::size_t kTypicalRowBytes = 24;
 
@@ -101,8 +100,8 @@ std::int64_t CsvReader::integer() {
   const std::string_view cell = next_cell();
   std::int64_t value = 0;
   if (!parse(cell, value)) fail_cell(fmt::format("'{}' is not an integer", shown(cell)));
-  if (value > kMaxInteger || value < -kMaxInteger) {
-    fail_cell(fmt::format("{} is out of range (must be within +-{})", value, kMaxInteger));
+  if (value > kMaxCsvInteger || value < -kMaxCsvInteger) {
+    fail_cell(fmt::format("{} is out of range (must be within +-{})", value, kMaxCsvInteger));
   }
   return value;
 }

@@ -58,5 +58,6 @@ class CsvReader {
 
 /// Largest magnitude of a number in a recording's CSV file: seconds since any epoch fit, and squares stay finite.
 constexpr double kMaxCsvNumber = 1e12;
+constexpr std::int64_t kMaxCsvInteger = std::int64_t(1) << 53;  // every integer up to it is a double, too
 
 }  // namespace umbsim

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
+#include <map>
 #include <numeric>
 
 namespace umbsim {
 namespace {
 
 constexpr std::size_t kShortestBeginning = 3;  // characters that are enough to say what was begun
+constexpr std::size_t kLongestName = 100;      // of what is further from every choice than to say so is of use
 
 std::string folded(std::string text) {
   for (char& c : text) c = c == '-' ? '_' : char(std::tolower(static_cast<unsigned char>(c)));
@@ -27,8 +30,10 @@ std::optional<int> remoteness(const std::string& wrong, const std::string& choic
   if (wrong == choice) return 0;
   if (ends(choice, "." + wrong)) return 1;
   if (wrong.size() >= kShortestBeginning && begins(choice, wrong)) return 2;
+  const int most = std::max(1, int(wrong.size() + 1) / 3);
+  if (std::abs(int(wrong.size()) - int(choice.size())) > most) return std::nullopt;  // a letter more is a change, too
   const int distance = edit_distance(wrong, choice);
-  if (distance > std::max(1, int(wrong.size() + 1) / 3)) return std::nullopt;
+  if (distance > most) return std::nullopt;
   return 2 + distance;
 }
 
@@ -66,12 +71,14 @@ std::string did_you_mean(const std::string& wrong, const std::vector<std::string
 }
 
 std::vector<std::string> nearest_few(const std::string& wrong, std::vector<std::string> choices, std::size_t count) {
-  const std::string word = folded(wrong);
-  std::stable_sort(choices.begin(), choices.end(), [&](const std::string& a, const std::string& b) {
-    return edit_distance(word, folded(a)) < edit_distance(word, folded(b));
-  });
-  choices.resize(std::min(count, choices.size()));
-  return choices;
+  const std::string word = folded(wrong.substr(0, kLongestName));
+  std::multimap<int, std::string> by_distance;
+  for (std::string& choice : choices) by_distance.emplace(edit_distance(word, folded(choice)), std::move(choice));
+  std::vector<std::string> few;
+  for (auto& [distance, choice] : by_distance) {
+    if (few.size() < count) few.push_back(std::move(choice));
+  }
+  return few;
 }
 
 }  // namespace umbsim

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/text/yaml_reader.h"
 #include "exchange/bag/files/mcap_records.h"
+#include "exchange/bag/files/ros1_sizes.h"
 #include "exchange/bag/files/unpacked_file.h"
 
 namespace umbsim::exchange {
@@ -31,7 +32,10 @@ bool is_ros1(const std::string& begin) { return begin.starts_with("#ROSBAG V"); 
 std::unique_ptr<Bag> open_by(const std::string& begin, const std::string& file, const UnpackedFile* unpacked) {
   if (is_mcap(begin)) return open_mcap(file, unpacked);
   if (is_sqlite(begin)) return open_db3(file, unpacked);
-  if (is_ros1(begin)) return open_ros1(file, unpacked);
+  if (is_ros1(begin)) {
+    check_ros1_sizes(unpacked ? unpacked->path() : file, file);
+    return open_ros1(file, unpacked);
+  }
   throw InputError(SourceMark{file}, begin.empty() ? "is empty" : "is no bag: neither MCAP, SQLite (.db3) nor ROS 1");
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "core/error.h"
@@ -89,11 +90,27 @@ class TopicReader {
   MessageReader reader_;
 };
 
-// The header's stamp, or the time of receipt where it was left at zero.
-Nanoseconds stamp_of(double sec, double nanosec, Nanoseconds received) {
-  const Nanoseconds at = Nanoseconds(sec) * 1'000'000'000 + Nanoseconds(nanosec);
-  return at == 0 ? received : at;
-}
+constexpr double kLatest_s = 4294967296.0;  // the most that ROS 1 holds: of the year 2106
+
+/// How and when a message came.
+struct Receipt {
+  const std::string& topic;
+  std::size_t number;
+  Nanoseconds at;
+
+  void check(const char* what, double sec) const {
+    if (std::abs(sec) <= kLatest_s) return;
+    throw InputError(
+        fmt::format("topic {}: message {}: {} is {} s (must be within +-{:.0f})", topic, number, what, sec, kLatest_s));
+  }
+  /// The header's stamp, or the time of receipt where it was left at zero.
+  Nanoseconds stamp(double sec, double nanosec) const {
+    check("header.stamp.sec", sec);
+    check("header.stamp.nanosec", 1e-9 * nanosec);
+    const Nanoseconds stamped = Nanoseconds(sec) * 1'000'000'000 + Nanoseconds(nanosec);
+    return stamped == 0 ? at : stamped;
+  }
+};
 
 template <class Take>
 void read_topic(const Bags& bags, const std::string& name, const std::vector<std::string>& paths,
@@ -112,7 +129,9 @@ void read_topic(const Bags& bags, const std::string& name, const std::vector<std
     if (wanted.empty()) continue;
     bag->read(wanted, [&](const BagMessage& m) {
       readers.at(m.topic).read(m, values, ++number);
-      take(values, m.received, number);
+      const Receipt receipt{name, number, m.received};
+      receipt.check("its time of receipt", double(m.received / 1'000'000'000));
+      take(values, receipt);
     });
   }
 }
@@ -137,11 +156,9 @@ bool holds_poses(const std::string& type) { return pose_types().count(type) > 0;
 
 void read_joint_states(const Bags& bags, const std::string& topic, const std::function<void(JointStates&)>& done) {
   JointStates states(topic);
-  read_topic(bags, topic, {"name", "position", "velocity"}, "",
-             [&](const MessageValues& v, Nanoseconds received, std::size_t) {
-               states.add(stamp_of(v.numbers[0].at(0), v.numbers[1].at(0), received), v.texts[2], v.numbers[3],
-                          v.numbers[4]);
-             });
+  read_topic(bags, topic, {"name", "position", "velocity"}, "", [&](const MessageValues& v, const Receipt& receipt) {
+    states.add(receipt.stamp(v.numbers[0].at(0), v.numbers[1].at(0)), v.texts[2], v.numbers[3], v.numbers[4]);
+  });
   done(states);
 }
 
@@ -153,10 +170,10 @@ void read_poses(const Bags& bags, const std::string& topic, const std::function<
   for (const char* c : {".x", ".y", ".z", ".w"}) paths.push_back(p.prefix + p.orientation + c);
   if (!p.child) paths.erase(paths.begin() + 1);
   const std::size_t first = p.child ? 4 : 3;
-  read_topic(bags, topic, paths, p.prefix, [&](const MessageValues& v, Nanoseconds received, std::size_t) {
+  read_topic(bags, topic, paths, p.prefix, [&](const MessageValues& v, const Receipt& receipt) {
     for (std::size_t i = 0; i < v.numbers[0].size(); ++i) {
       StampedPose s{
-          stamp_of(v.numbers[0][i], v.numbers[1][i], received), v.texts[2][i], p.child ? v.texts[3][i] : "", {}, {}};
+          receipt.stamp(v.numbers[0][i], v.numbers[1][i]), v.texts[2][i], p.child ? v.texts[3][i] : "", {}, {}};
       for (std::size_t k = 0; k < 3; ++k) s.position[k] = v.numbers[first + k][i];
       for (std::size_t k = 0; k < 4; ++k) s.quaternion[k] = v.numbers[first + 3 + k][i];
       for (std::string* name : {&s.frame, &s.child}) {
@@ -174,8 +191,8 @@ void read_commands(const Bags& bags, const std::string& topic,
   const std::size_t first = stamped ? 2 : 0;
   read_topic(
       bags, topic, {prefix + "linear.x", prefix + "angular.z"}, "",
-      [&](const MessageValues& v, Nanoseconds received, std::size_t) {
-        take(stamped ? stamp_of(v.numbers[0].at(0), v.numbers[1].at(0), received) : received, v.numbers[first].at(0),
+      [&](const MessageValues& v, const Receipt& receipt) {
+        take(stamped ? receipt.stamp(v.numbers[0].at(0), v.numbers[1].at(0)) : receipt.at, v.numbers[first].at(0),
              v.numbers[first + 1].at(0));
       },
       stamped);

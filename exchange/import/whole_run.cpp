@@ -11,6 +11,7 @@
 #include "exchange/import/truth/interpolate.h"
 #include "exchange/import/wheels/counts.h"
 #include "exchange/import/wheels/wheel_commands.h"
+#include "recording/csv.h"
 
 namespace umbsim::exchange {
 namespace {
@@ -61,7 +62,10 @@ void add_encoders(const Log& log, RecordedRobot& robot, Nanoseconds zero, Record
   const std::vector<double> right = turned(log.right, robot.wheel_radius_m, found);
   find_resolution(left, right, robot, found);
   const auto ticks = [&](const WheelSignal& s, double v) {
-    return std::llround(s.unit == WheelUnit::ticks ? v : v * robot.ticks_per_revolution);
+    const double counted = s.unit == WheelUnit::ticks ? v : v * robot.ticks_per_revolution;
+    if (!(std::abs(counted) <= double(kMaxCsvInteger)))
+      throw InputError(fmt::format("a wheel turns to {:g} ticks (must be within +-{})", counted, kMaxCsvInteger));
+    return std::llround(counted);
   };
   const bool together = log.left.at == log.right.at;
   if (!together) found.push_back("the wheels were read at different times: the right one is taken between its samples");

@@ -103,7 +103,7 @@ Shares::value_type most(const Shares& shares) {
 }  // namespace
 
 LeftOver describe_left_over(const Model& model, const Fit& fit) {
-  constexpr double kLittle = 5;  // log evidence
+  constexpr double kLeast = 5;  // log evidence
   const std::vector<SegmentScore> scores = segment_scores(model, fit);
   Shares by_part;
   Shares by_run;
@@ -114,7 +114,7 @@ LeftOver describe_left_over(const Model& model, const Fit& fit) {
     by_run[s.run] += s.score;
     total += s.score;
   }
-  if (total < kLittle || scores.empty()) return {};
+  if (total < kLeast || scores.empty()) return {};
   const auto [part, part_score] = most(by_part);
   const auto [run, run_score] = most(by_run);
   const bool one_run = run_score > 0.5 * total && by_run.size() > 1;
