@@ -65,9 +65,8 @@ Eigen::VectorXd with_exact_servos(Eigen::VectorXd sd, const Scatter& s) {
   return sd;
 }
 
-// The marker, the clock and the frame stay what they are, whoever made the recording.
-Eigen::VectorXd of_same_engine(const Eigen::VectorXd& usual, const Layout& layout, const Scatter& s) {
-  Eigen::VectorXd sd = with_exact_servos(usual, s);
+// Contacts of this engine. The marker, the clock and the frame stay what they are, whoever made the recording.
+Eigen::VectorXd with_same_contacts(Eigen::VectorXd sd, const Layout& layout, const Scatter& s) {
   sd.head(kCountsColumn) *= s.same_engine;
   sd.segment(layout.group(0), layout.tracker(0) - layout.group(0)) *= s.same_engine;
   return sd;
@@ -93,10 +92,9 @@ std::vector<Eigen::VectorXd> by_mount(const Layout& layout, const Scatter& s) {
   return sds;
 }
 
-// Each of these, and each with servos that turn as they are told.
-std::vector<Eigen::VectorXd> of_another_engine(const Layout& layout, const Scatter& s) {
-  std::vector<Eigen::VectorXd> sds = by_mount(layout, s);
-  for (const Eigen::VectorXd& sd : by_mount(layout, s)) sds.push_back(with_exact_servos(sd, s));
+// Each of these, and each with servos that turn as they are told: whose contacts they are says nothing of servos.
+std::vector<Eigen::VectorXd> by_servos(std::vector<Eigen::VectorXd> sds, const Scatter& s) {
+  for (std::size_t i = 0, usual = sds.size(); i < usual; ++i) sds.push_back(with_exact_servos(sds[i], s));
   return sds;
 }
 
@@ -180,9 +178,9 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   const RunGroups& groups = layout.groups;
   const Scatter other = layout.any_free() ? scatter : between_engines(scatter);
   Nuisances n;
-  if (!layout.any_free()) n.shared_sds = of_another_engine(layout, other);
+  if (!layout.any_free()) n.shared_sds = by_servos(by_mount(layout, other), other);
   n.wide = n.shared_sds.size();
-  const std::vector<Eigen::VectorXd> little = of_another_engine(layout, scatter);
+  const std::vector<Eigen::VectorXd> little = by_servos(by_mount(layout, scatter), scatter);
   n.shared_sds.insert(n.shared_sds.end(), little.begin(), little.end());
   n.of_another = n.shared_sds.size();
   n.usual_sd = little[little.size() / 2];
@@ -194,8 +192,7 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   n.engine_sd.head(layout.tracker(0)) = n.shared_sds.front().head(layout.tracker(0));
   n.unexplained_sd = Eigen::VectorXd::Zero(layout.size());
   if (!layout.any_free()) {
-    for (const Eigen::VectorXd& usual : by_mount(layout, scatter))
-      n.shared_sds.push_back(of_same_engine(usual, layout, scatter));
+    for (const Eigen::VectorXd& sd : little) n.shared_sds.push_back(with_same_contacts(sd, layout, scatter));
   }
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
     const Eigen::Index first = layout.group(g);
