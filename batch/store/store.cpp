@@ -33,6 +33,15 @@ void check_is_store(Database& database) {
   }
 }
 
+// The columns of a table behind those that every sweep's has.
+std::vector<std::string> columns_behind(Database& database, const std::string& table,
+                                        const std::vector<std::string>& fixed) {
+  const std::vector<std::string> all = column_names(database, table);
+  if (all.size() < fixed.size() || !std::equal(fixed.begin(), fixed.end(), all.begin()))
+    throw InputError(fmt::format("{}: is damaged: its table '{}' has other columns", database.file(), table));
+  return {all.begin() + std::ptrdiff_t(fixed.size()), all.end()};
+}
+
 }  // namespace
 
 const std::vector<std::string>& Store::fixed_columns() {
@@ -85,11 +94,12 @@ void Store::create(const StoreLayout& layout, const Provenance& provenance) {
 void Store::read_layout() {
   layout_.name = text_of_cell(database_->value("SELECT value FROM sweep WHERE key = 'name'"));
   layout_.definition = text_of_cell(database_->value("SELECT value FROM sweep WHERE key = 'definition'"));
-  layout_.points = std::get<std::int64_t>(database_->value("SELECT value FROM sweep WHERE key = 'points'"));
-  layout_.axes = column_names(*database_, "points");
-  layout_.axes.erase(layout_.axes.begin(), layout_.axes.begin() + std::ptrdiff_t(fixed_columns().size()));
-  layout_.figures = column_names(*database_, "figures");
-  layout_.figures.erase(layout_.figures.begin());
+  const Cell points = database_->value("SELECT value FROM sweep WHERE key = 'points'");
+  const std::int64_t* count = std::get_if<std::int64_t>(&points);
+  if (!count || *count < 0) throw InputError(fmt::format("{}: is damaged: it has no number of points", file()));
+  layout_.points = *count;
+  layout_.axes = columns_behind(*database_, "points", fixed_columns());
+  layout_.figures = columns_behind(*database_, "figures", {"point"});
 }
 
 void Store::check_made_for(const StoreLayout& wanted) const {
