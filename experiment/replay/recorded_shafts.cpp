@@ -144,20 +144,23 @@ std::vector<Bounds> between_steps(std::vector<double> ahead, const std::vector<d
   return both;
 }
 
-// The middles of bounds, each averaged over as many neighbours as leave it within its own: the steps of counts do not
-// shake the robot, and motors that leave their commands for a tenth of a second are followed.
+// The middles of bounds, each averaged over as many neighbours as agree with fewer of them to what those are known to
+// (Lepski 1991): the steps of counts do not shake the robot, and motors that leave their commands for a tenth of a
+// second are followed.
 std::vector<double> averaged_within(const std::vector<Bounds>& bounds) {
-  std::vector<double> middle;
-  for (const Bounds& b : bounds) middle.push_back(b.middle());
-  std::vector<double> result = middle;
-  std::vector<bool> done(bounds.size());
-  for (const std::size_t half : {5, 3, 2, 1}) {  // samples, twice
+  std::vector<double> result;
+  for (const Bounds& b : bounds) result.push_back(b.middle());
+  const std::vector<double> middle = result;
+  std::vector<bool> wider(bounds.size(), true);
+  std::size_t averaged_over = 1;
+  for (const std::size_t half : {1, 2, 3, 5}) {  // samples, twice
     const std::vector<double> mean = averaged(averaged(middle, half), half);
     for (std::size_t i = 0; i < bounds.size(); ++i) {
-      if (done[i] || mean[i] < bounds[i].low || mean[i] > bounds[i].high) continue;
-      result[i] = mean[i];
-      done[i] = true;
+      const double sd = (bounds[i].high - bounds[i].low) / std::sqrt(12.0 * double(averaged_over));
+      wider[i] = wider[i] && std::abs(mean[i] - result[i]) <= sd;
+      if (wider[i]) result[i] = mean[i];
     }
+    averaged_over = 2 * half + 1;
   }
   return result;
 }
