@@ -9,10 +9,12 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr int kCommon = 8;  // creep, slip, CountsColumns: of the robot
+constexpr int kCommon = 9;  // creep, slip, late readings, CountsColumns: of the robot
 constexpr int kCreepColumn = 0;
 constexpr int kSlipColumn = 1;
-constexpr int kCountsColumn = 2;  // the first of these
+constexpr int kLateColumn = 2;
+constexpr int kCountsColumn = 3;  // the first of these
+constexpr int kLagColumn = 2;     // among CountsColumns
 constexpr int kPerTracker = 4;    // marker (2), clock, frame: of each recording
 constexpr int kPerGroup = 7;      // legs, turns in place, rolling turns, heading and sideways along legs, leads (2)
 constexpr int kLeads = 5;         // the first of these
@@ -42,8 +44,8 @@ struct Layout {
 
 Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
   Eigen::VectorXd sd(layout.size());
-  sd.head(kCommon) << s.creep_across, s.slip_share, s.engine_gain, s.wheel_gain, s.lag_s, s.servo_s, s.course_gain,
-      s.course_gain;
+  sd.head(kCommon) << s.creep_across, s.slip_share, s.lead_s, s.engine_gain, s.wheel_gain, s.lag_s, s.servo_s,
+      s.course_gain, s.course_gain;
   for (std::size_t t = 0; t < layout.trackers.size(); ++t) {
     // A truth without noise is a simulator's.
     const double frame = layout.trackers[t]->truth_heading_sd_rad > 0 ? s.frame_rad : 0;
@@ -220,9 +222,12 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
     const auto impulses = group_impulses(nominal, r);
     const Eigen::Index first = layout.group(groups.group_of[r]);
     for (int i = 0; i < kPerGroup; ++i) raw.col(first + i) = filters[r].propagate(impulses[std::size_t(i)]);
+    // Counts that are read late are behind the pose and behind the commands alike.
+    raw.col(kLateColumn) = raw.col(first + kLeads) + raw.col(first + kLeads + 1);
     const int more_rows = int(counts[r].rows());
     n.shared.push_back(whitened(filters[r], raw, more_rows));
     n.shared.back().block(3 * samples, kCountsColumn, more_rows, counts[r].cols()) = counts[r];
+    n.shared.back().block(3 * samples, kLateColumn, more_rows, 1) = counts[r].col(kLagColumn);
     n.tracks.push_back(std::move(raw));
     const bool is_free = tracker_is_free(*nominal.origin[r]);
     const double radius = is_free ? scatter.real_radius : scatter.radius;
