@@ -44,7 +44,7 @@ struct Layout {
 
 Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
   Eigen::VectorXd sd(layout.size());
-  sd.head(kCommon) << s.creep_across, s.slip_share, s.lead_s, s.engine_gain, s.wheel_gain, s.lag_s, s.servo_s,
+  sd.head(kCommon) << s.creep_across, s.slip_share, s.late_s, s.engine_gain, s.wheel_gain, s.lag_s, s.servo_s,
       s.course_gain, s.course_gain;
   for (std::size_t t = 0; t < layout.trackers.size(); ++t) {
     // A truth without noise is a simulator's.
@@ -61,15 +61,15 @@ Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
   return sd;
 }
 
-// Wheels that turn as they are told, as this engine's do: other engines can do that, too.
+// Wheels that turn as they are told, and are read at once, as this engine's: other engines can do that, too.
 Eigen::VectorXd with_exact_servos(Eigen::VectorXd sd, const Scatter& s) {
-  sd.segment(kCountsColumn, CountsColumns::ColsAtCompileTime) *= s.same_servos;
+  sd.segment(kLateColumn, 1 + CountsColumns::ColsAtCompileTime) *= s.same_servos;
   return sd;
 }
 
 // Contacts of this engine. The marker, the clock and the frame stay what they are, whoever made the recording.
 Eigen::VectorXd with_same_contacts(Eigen::VectorXd sd, const Layout& layout, const Scatter& s) {
-  sd.head(kCountsColumn) *= s.same_engine;
+  sd.head(kLateColumn) *= s.same_engine;
   sd.segment(layout.group(0), layout.tracker(0) - layout.group(0)) *= s.same_engine;
   return sd;
 }
