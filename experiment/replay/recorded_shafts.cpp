@@ -12,6 +12,8 @@ namespace {
 
 // Angles of a shaft that the counts stand for, in radians, smoothed over neighbours so that the counts' staircase does
 // not shake the robot. Binomial weights: no drift, and straight ramps stay as they are.
+constexpr std::size_t kDriftHalf = 5;  // samples
+
 std::vector<double> smoothed(std::vector<double> angle) {
   const std::size_t n = angle.size();
   for (int pass = 0; pass < 2; ++pass) {
@@ -107,7 +109,6 @@ double gain_of(const std::vector<double>& ahead, const std::vector<double>& turn
 struct Bounds {
   double low = 0;
   double high = 0;
-  double middle() const { return (low + high) / 2; }
 };
 
 // Bounds of a slow drift that is within `half` of every `ahead`, from the samples up to each.
@@ -124,7 +125,7 @@ std::vector<Bounds> bounded(const std::vector<double>& ahead, const std::vector<
 
 // How far a shaft is ahead of its commands, where counts say so in steps of twice `half` only. The moments of the steps
 // tell more than the counts in between: at rest a count may be half a step off for long.
-std::vector<Bounds> between_steps(std::vector<double> ahead, const std::vector<double>& turned, double half) {
+std::vector<double> between_steps(std::vector<double> ahead, const std::vector<double>& turned, double half) {
   constexpr double kDrift = 1e-3;  // of commanded rotation, beyond a constant gain
   const double gain = gain_of(ahead, turned);
   std::vector<double> drift(ahead.size());
@@ -135,34 +136,11 @@ std::vector<Bounds> between_steps(std::vector<double> ahead, const std::vector<d
   std::vector<double> reversed_drift(ahead.size());
   for (std::size_t i = 1; i < drift.size(); ++i) reversed_drift[i] = drift[drift.size() - i];
   const std::vector<Bounds> future = bounded(reversed, reversed_drift, half);
-  std::vector<Bounds> both;
   for (std::size_t i = 0; i < ahead.size(); ++i) {
     const Bounds& f = future[ahead.size() - 1 - i];
-    const auto [low, high] = std::minmax(std::max(past[i].low, f.low), std::min(past[i].high, f.high));
-    both.push_back({low + gain * turned[i], high + gain * turned[i]});
+    ahead[i] = (std::max(past[i].low, f.low) + std::min(past[i].high, f.high)) / 2 + gain * turned[i];
   }
-  return both;
-}
-
-// The middles of bounds, each averaged over as many neighbours as agree with fewer of them to what those are known to
-// (Lepski 1991): the steps of counts do not shake the robot, and motors that leave their commands for a tenth of a
-// second are followed.
-std::vector<double> averaged_within(const std::vector<Bounds>& bounds) {
-  std::vector<double> result;
-  for (const Bounds& b : bounds) result.push_back(b.middle());
-  const std::vector<double> middle = result;
-  std::vector<bool> wider(bounds.size(), true);
-  std::size_t averaged_over = 1;
-  for (const std::size_t half : {1, 2, 3, 5}) {  // samples, twice
-    const std::vector<double> mean = averaged(averaged(middle, half), half);
-    for (std::size_t i = 0; i < bounds.size(); ++i) {
-      const double sd = (bounds[i].high - bounds[i].low) / std::sqrt(12.0 * double(averaged_over));
-      wider[i] = wider[i] && std::abs(mean[i] - result[i]) <= sd;
-      if (wider[i]) result[i] = mean[i];
-    }
-    averaged_over = 2 * half + 1;
-  }
-  return result;
+  return ahead;
 }
 
 }  // namespace
@@ -220,8 +198,8 @@ std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec
   const std::vector<double> asked = obeyed(s, command, late_s);
   const std::vector<double> turned = commanded(s, asked, steps);
   for (std::size_t i = 0; i < s.size(); ++i) angle[i] -= turned[i];
-  angle = averaged_within(between_steps(std::move(angle), turned, k * count_step / 2));
-  std::vector<double> speed = half_a_step_later(speeds(angle, s), steps);
+  angle = between_steps(std::move(angle), turned, k * count_step / 2);
+  std::vector<double> speed = half_a_step_later(speeds(averaged(averaged(angle, kDriftHalf), kDriftHalf), s), steps);
   for (std::size_t i = 0; i < s.size(); ++i) speed[i] += asked[i];
   return speed;
 }
