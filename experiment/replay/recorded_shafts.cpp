@@ -12,8 +12,6 @@ namespace {
 
 // Angles of a shaft that the counts stand for, in radians, smoothed over neighbours so that the counts' staircase does
 // not shake the robot. Binomial weights: no drift, and straight ramps stay as they are.
-constexpr std::size_t kDriftHalf = 5;  // samples
-
 std::vector<double> smoothed(std::vector<double> angle) {
   const std::size_t n = angle.size();
   for (int pass = 0; pass < 2; ++pass) {
@@ -58,15 +56,29 @@ std::vector<double> half_a_step_later(const std::vector<double>& speed, int step
   return later;
 }
 
-// A wheel's speed at the samples if it follows the commands, which ramp from one to the next, with a first-order lag.
-std::vector<double> obeyed(const std::vector<EncoderSample>& s, double EncoderSample::*command, double lag_s) {
+// Commands that ramp from one sample to the next, late.
+std::vector<double> late_commands(const std::vector<EncoderSample>& s, double EncoderSample::*command, double dead_s) {
+  std::vector<double> late(s.size());
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const double at_s = s[i].time_s - dead_s;
+    while (k + 2 < s.size() && s[k + 1].time_s < at_s) ++k;
+    const double on = std::clamp((at_s - s[k].time_s) / (s[k + 1].time_s - s[k].time_s), 0.0, 1.0);
+    late[i] = s[k].*command + on * (s[k + 1].*command - s[k].*command);
+  }
+  return late;
+}
+
+// A wheel's speed at the samples if it follows the commands so late.
+std::vector<double> obeyed(const std::vector<EncoderSample>& s, double EncoderSample::*command, const CommandLag& lag) {
+  const std::vector<double> asked = late_commands(s, command, lag.dead_s);
   std::vector<double> speed(s.size());
-  speed[0] = s[0].*command;
+  speed[0] = asked[0];
   for (std::size_t i = 1; i < s.size(); ++i) {
     const double dt = s[i].time_s - s[i - 1].time_s;
-    const double behind = (s[i].*command - s[i - 1].*command) / dt * lag_s;
-    const double fading = lag_s > 0 ? std::exp(-dt / lag_s) : 0;
-    speed[i] = s[i].*command - behind + (speed[i - 1] - s[i - 1].*command + behind) * fading;
+    const double behind = (asked[i] - asked[i - 1]) / dt * lag.slow_s;
+    const double fading = lag.slow_s > 0 ? std::exp(-dt / lag.slow_s) : 0;
+    speed[i] = asked[i] - behind + (speed[i - 1] - asked[i - 1] + behind) * fading;
   }
   return speed;
 }
@@ -92,23 +104,31 @@ std::vector<double> speeds(const std::vector<double>& angle, const std::vector<E
   return speed;
 }
 
-// Least squares of how much further a shaft turns than commanded, per commanded angle.
-double gain_of(const std::vector<double>& ahead, const std::vector<double>& turned) {
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+// Least squares of how much further a shaft turns than commanded, per commanded angle, and the squares that it leaves.
+struct Gain {
+  double per_rad = 0;
+  double left_rad2 = 0;
+};
+
+Gain gain_of(const std::vector<double>& ahead, const std::vector<double>& turned) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
   for (std::size_t i = 0; i < ahead.size(); ++i) {
     n += 1;
     x += turned[i];
     y += ahead[i];
     xx += turned[i] * turned[i];
     xy += turned[i] * ahead[i];
+    yy += ahead[i] * ahead[i];
   }
-  const double spread = n * xx - x * x;
-  return spread > 0 ? (n * xy - x * y) / spread : 0;
+  const double spread = n * xx - x * x, shared = n * xy - x * y;
+  const double gain = spread > 0 ? shared / spread : 0;
+  return {gain, yy - y * y / n - gain * shared / n};
 }
 
 struct Bounds {
   double low = 0;
   double high = 0;
+  double middle() const { return (low + high) / 2; }
 };
 
 // Bounds of a slow drift that is within `half` of every `ahead`, from the samples up to each.
@@ -125,9 +145,9 @@ std::vector<Bounds> bounded(const std::vector<double>& ahead, const std::vector<
 
 // How far a shaft is ahead of its commands, where counts say so in steps of twice `half` only. The moments of the steps
 // tell more than the counts in between: at rest a count may be half a step off for long.
-std::vector<double> between_steps(std::vector<double> ahead, const std::vector<double>& turned, double half) {
+std::vector<Bounds> between_steps(std::vector<double> ahead, const std::vector<double>& turned, double half) {
   constexpr double kDrift = 1e-3;  // of commanded rotation, beyond a constant gain
-  const double gain = gain_of(ahead, turned);
+  const double gain = gain_of(ahead, turned).per_rad;
   std::vector<double> drift(ahead.size());
   for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] -= gain * turned[i];
   for (std::size_t i = 1; i < ahead.size(); ++i) drift[i] = kDrift * std::abs(turned[i] - turned[i - 1]);
@@ -136,33 +156,73 @@ std::vector<double> between_steps(std::vector<double> ahead, const std::vector<d
   std::vector<double> reversed_drift(ahead.size());
   for (std::size_t i = 1; i < drift.size(); ++i) reversed_drift[i] = drift[drift.size() - i];
   const std::vector<Bounds> future = bounded(reversed, reversed_drift, half);
+  std::vector<Bounds> both;
   for (std::size_t i = 0; i < ahead.size(); ++i) {
     const Bounds& f = future[ahead.size() - 1 - i];
-    ahead[i] = (std::max(past[i].low, f.low) + std::min(past[i].high, f.high)) / 2 + gain * turned[i];
+    const auto [low, high] = std::minmax(std::max(past[i].low, f.low), std::min(past[i].high, f.high));
+    both.push_back({low + gain * turned[i], high + gain * turned[i]});
   }
-  return ahead;
+  return both;
+}
+
+// The middles of bounds, each averaged over as many neighbours as agree with fewer of them to what those are known to
+// (Lepski 1991): the steps of counts do not shake the robot, and motors that leave their commands for a tenth of a
+// second are followed.
+std::vector<double> averaged_within(const std::vector<Bounds>& bounds) {
+  std::vector<double> result;
+  for (const Bounds& b : bounds) result.push_back(b.middle());
+  const std::vector<double> middle = result;
+  std::vector<bool> wider(bounds.size(), true);
+  std::size_t averaged_over = 1;
+  for (const std::size_t half : {1, 2, 3, 5}) {  // samples, twice
+    const std::vector<double> mean = averaged(averaged(middle, half), half);
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+      const double sd = (bounds[i].high - bounds[i].low) / std::sqrt(12.0 * double(averaged_over));
+      wider[i] = wider[i] && std::abs(mean[i] - result[i]) <= sd;
+      if (wider[i]) result[i] = mean[i];
+    }
+    averaged_over = 2 * half + 1;
+  }
+  return result;
 }
 
 }  // namespace
 
-double measured_lag(const RecordedRun& run, const RecordedRobot& robot, int steps) {
-  if (!run.has_commands) return 0;
+CommandLag measured_lag(const RecordedRun& run, const RecordedRobot& robot, int steps) {
+  if (!run.has_commands) return {};
+  constexpr double EncoderSample::*kCommand[] = {&EncoderSample::left_command_radps,
+                                                 &EncoderSample::right_command_radps};
+  constexpr std::int64_t EncoderSample::*kTicks[] = {&EncoderSample::left_ticks, &EncoderSample::right_ticks};
   const std::vector<Eigen::Vector2d> ahead_s = heading_over_time(run, robot);
   const double step_rad = 2 * M_PI / robot.ticks_per_revolution;
-  double lag_s = 0;
+  std::vector<double> counted[2];
+  double all_s = 0;
   for (int w = 0; w < 2; ++w) {
-    const auto command = w == 0 ? &EncoderSample::left_command_radps : &EncoderSample::right_command_radps;
-    const auto ticks = w == 0 ? &EncoderSample::left_ticks : &EncoderSample::right_ticks;
-    std::vector<double> counted;
-    for (const EncoderSample& s : run.encoders) counted.push_back(step_rad * double(s.*ticks));
-    const std::vector<double> speed = obeyed(run.encoders, command, 0);
-    lag_s += 0.5 * counts_behind(speed, commanded(run.encoders, speed, steps), counted, ahead_s, step_rad).lag_s;
+    for (const EncoderSample& s : run.encoders) counted[w].push_back(step_rad * double(s.*kTicks[w]));
+    const std::vector<double> speed = obeyed(run.encoders, kCommand[w], {});
+    all_s += 0.5 * counts_behind(speed, commanded(run.encoders, speed, steps), counted[w], ahead_s, step_rad).lag_s;
   }
-  return lag_s;
+  CommandLag best{0, all_s};
+  double least_rad2 = HUGE_VAL;
+  for (const double dead : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const CommandLag lag{dead * all_s, (1 - dead) * all_s};
+    if (all_s <= 0 && dead > 0) break;
+    double left_rad2 = 0;
+    for (int w = 0; w < 2; ++w) {
+      const std::vector<double> turned = commanded(run.encoders, obeyed(run.encoders, kCommand[w], lag), steps);
+      std::vector<double> ahead = counted[w];
+      for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] -= turned[i];
+      left_rad2 += gain_of(ahead, turned).left_rad2;
+    }
+    if (left_rad2 >= least_rad2) continue;
+    least_rad2 = left_rad2;
+    best = lag;
+  }
+  return best;
 }
 
 std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec, const EncoderFaults& faults,
-                                 bool left, double lag_s, int steps, double count_step) {
+                                 bool left, const CommandLag& lag, int steps, double count_step) {
   const auto ticks = left ? &EncoderSample::left_ticks : &EncoderSample::right_ticks;
   const std::vector<EncoderSample>& s = run.encoders;
   const double k = 2 * M_PI / spec.ticks_per_revolution;
@@ -194,12 +254,14 @@ std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec
   if (!run.has_commands) return half_a_step_later(speeds(smoothed(std::move(angle)), s), steps);
   // The commands say finely what the counts say coarsely: the motor follows them, and drifts from them slowly.
   const auto command = left ? &EncoderSample::left_command_radps : &EncoderSample::right_command_radps;
-  const double late_s = std::max(0.0, lag_s - spec.latency_s - spec.sampling_interval_s / 2);
-  const std::vector<double> asked = obeyed(s, command, late_s);
+  const double read_late_s = spec.latency_s + spec.sampling_interval_s / 2;
+  const double late_s = std::max(0.0, lag.all_s() - read_late_s);
+  const double dead_s = std::clamp(lag.dead_s - read_late_s, 0.0, late_s);
+  const std::vector<double> asked = obeyed(s, command, {dead_s, late_s - dead_s});
   const std::vector<double> turned = commanded(s, asked, steps);
   for (std::size_t i = 0; i < s.size(); ++i) angle[i] -= turned[i];
-  angle = between_steps(std::move(angle), turned, k * count_step / 2);
-  std::vector<double> speed = half_a_step_later(speeds(averaged(averaged(angle, kDriftHalf), kDriftHalf), s), steps);
+  angle = averaged_within(between_steps(std::move(angle), turned, k * count_step / 2));
+  std::vector<double> speed = half_a_step_later(speeds(angle, s), steps);
   for (std::size_t i = 0; i < s.size(); ++i) speed[i] += asked[i];
   return speed;
 }

@@ -123,7 +123,7 @@ Replay::Replay(const Scenario& scenario, const Recording& recording, bool by_tra
     stretches_.push_back(umbsim::stretches(run, recording.robot));
     const bool track = recording.truth_kind == "track" && run.truth.size() > 20;
     start_.push_back(track ? start_of(run, recording.robot) : run.truth.front().X_WB);
-    lag_s_.push_back(measured_lag(run, recording.robot, steps_));
+    lag_.push_back(measured_lag(run, recording.robot, steps_));
   }
 }
 
@@ -200,8 +200,8 @@ ShaftDrive Replay::shafts(std::size_t index, const Rig& supposed) const {
   const double step = coarse_step(supposed);
   EncoderSpec e = supposed.encoders;
   e.ticks_per_revolution = recording_.robot.ticks_per_revolution;
-  return {run.encoders, shaft_speeds(run, e, e.left, true, lag_s_[index], steps_, step),
-          shaft_speeds(run, e, e.right, false, lag_s_[index], steps_, step), start_[index]};
+  return {run.encoders, shaft_speeds(run, e, e.left, true, lag_[index], steps_, step),
+          shaft_speeds(run, e, e.right, false, lag_[index], steps_, step), start_[index]};
 }
 
 // The way of the shafts decides how rough the floor is under the wheels, whatever else happens to the robot.

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "experiment/replay/recorded_shafts.h"
 #include "experiment/replay/traced_run.h"
 #include "experiment/scenario/scenario.h"
 #include "recording/command_features.h"
@@ -71,7 +72,7 @@ class Replay {
   CommandFeatures as_declared_{};  // what shows where the course is driven as it was declared
   int steps_ = 1;              // of the simulator in one period of the encoders
   double count_step_ = 1;      // width of the encoders' steps, in counts of the recording
-  std::vector<double> lag_s_;  // of the counts behind the commands, per run
+  std::vector<CommandLag> lag_;  // of the counts behind the commands, per run
   std::shared_ptr<Traces> traces_ = std::make_shared<Traces>(kTracesKept);
 };
 

@@ -193,6 +193,24 @@ Hypothesis on_motors_that_give_way(Hypothesis hypothesis, double motor_inertia_k
   return hypothesis;
 }
 
+// A slope pulls the robot aside on tyres that creep, and turns it where its mass is not over the axle. Poses tell slope
+// times creep, in which they are linear, and hardly either of them.
+Hypothesis on_creeping_tyres(Hypothesis hypothesis) {
+  hypothesis.variant += ", tyres that creep";
+  const Eigen::Index own = Eigen::Index(hypothesis.parameters.size());
+  constexpr double kTypical = 0.01;  // slip per traction ratio, typical of hard tyres
+  hypothesis.parameters.push_back({"log tyre_creep", 0, 0.2, 1, -3, 2});
+  hypothesis.values = [values = hypothesis.values, own](const Eigen::VectorXd& p) {
+    return values(p.head(own) * std::exp(-p[own]));
+  };
+  hypothesis.with = [=](const Eigen::VectorXd& p) {
+    Effect creep = neutral_effect(find_effect("tyre_creep"));
+    creep.values.numbers = {kTypical * std::exp(p[own]), kTypical * std::exp(p[own])};
+    return std::vector<Effect>{creep};
+  };
+  return hypothesis;
+}
+
 }  // namespace
 
 std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revolution, double wheel_width_m,
@@ -252,6 +270,7 @@ std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revol
       vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5),
       on_motors_that_give_way(vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.05, 0.5),
                               motor_inertia_kgm2),
+      on_creeping_tyres(vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.05, 0.5)),
       vector_hypothesis("carpet_drift", "metres_per_metre", "direction_rad", 1e-3, 0.008, 0.5),
   };
   for (Hypothesis& f : all) {

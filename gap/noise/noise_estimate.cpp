@@ -38,7 +38,34 @@ struct Difference {
   std::vector<bool> seen;  // of end points: which samples are; else empty
 };
 
-// Each run once as the first of a pair, in samples that are at least so long apart.
+// How far a run has come at each sample, metres that its wheels rolled. What stands creeps on, so that no two samples
+// are at one place.
+std::vector<double> progress_m(const NominalReplay& n, std::size_t run) {
+  constexpr double kStanding_mps = 1e-4;
+  std::vector<double> way;
+  double rolled_m = 0;
+  for (std::size_t k = 0; k < n.truth[run].size(); ++k) {
+    rolled_m += n.rolled_m[run][k];
+    way.push_back(rolled_m + kStanding_mps * n.recording->runs[run].truth[k].time_s);
+  }
+  return way;
+}
+
+// The error of the sample nearest to a place, carried on to there at the rate at which it changes: two readings
+// averaged would be less noisy than one.
+Eigen::Vector3d error_at(const Eigen::VectorXd& error, const std::vector<double>& way_m, double place_m) {
+  const Eigen::Index last = Eigen::Index(way_m.size()) - 1;
+  const auto after = std::lower_bound(way_m.begin() + 1, way_m.end() - 1, place_m);
+  Eigen::Index j = after - way_m.begin();
+  const double step_m = way_m[std::size_t(j)] - way_m[std::size_t(j - 1)];
+  double on = std::clamp((place_m - way_m[std::size_t(j)]) / step_m, -1.0, 0.0);
+  if (on < -0.5) --j, on += 1;
+  const Eigen::Index from = std::max<Eigen::Index>(0, j - 1), to = std::min(last, j + 1);
+  return error.segment<3>(3 * j) + on / double(to - from) * (error.segment<3>(3 * to) - error.segment<3>(3 * from));
+}
+
+// Each run once as the first of a pair, in samples that are at least so long apart. Runs that repeat each other come to
+// a place at different times: they are compared where they are, lest what the scenario errs by looks like noise.
 std::vector<Difference> differences(const NominalReplay& n, double apart_s) {
   std::vector<Difference> result;
   const bool ends = n.recording->truth_kind == "endpoints";
@@ -49,13 +76,16 @@ std::vector<Difference> differences(const NominalReplay& n, double apart_s) {
       const Eigen::VectorXd second = track_error(n.tracks[b], n.truth[b]);
       const auto& times = n.recording->runs[a].truth;
       Difference d{Eigen::VectorXd(first.size()), {}, {}, {}};
+      const std::vector<double> way = progress_m(n, a), other_way = progress_m(n, b);
       Eigen::Index rows = 0;
       double rolled_m = 0;
       double next_s = times.front().time_s;
       for (std::size_t k = 0; k < std::min(n.truth[a].size(), n.truth[b].size()); ++k) {
         rolled_m += n.rolled_m[a][k];
         if (times[k].time_s < next_s - 1e-6) continue;
-        d.column.segment<3>(rows) = first.segment<3>(3 * Eigen::Index(k)) - second.segment<3>(3 * Eigen::Index(k));
+        d.column.segment<3>(rows) =
+            first.segment<3>(3 * Eigen::Index(k)) -
+            (ends ? second.segment<3>(3 * Eigen::Index(k)) : error_at(second, other_way, way[k]));
         d.path.push_back(n.tracks[a][k]);
         d.rolled_m.push_back(rolled_m);
         if (ends) d.seen.push_back(n.seen[a][k] && n.seen[b][k]);

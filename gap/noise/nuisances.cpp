@@ -9,10 +9,12 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr int kCommon = 8;  // creep, slip, CountsColumns: of the robot
+constexpr int kCommon = 9;  // creep, slip, late readings, CountsColumns: of the robot
 constexpr int kCreepColumn = 0;
 constexpr int kSlipColumn = 1;
-constexpr int kCountsColumn = 2;  // the first of these
+constexpr int kLateColumn = 2;
+constexpr int kCountsColumn = 3;  // the first of these
+constexpr int kLagColumn = 2;     // among CountsColumns
 constexpr int kPerTracker = 4;    // marker (2), clock, frame: of each recording
 constexpr int kPerGroup = 7;      // legs, turns in place, rolling turns, heading and sideways along legs, leads (2)
 constexpr int kLeads = 5;         // the first of these
@@ -42,8 +44,8 @@ struct Layout {
 
 Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
   Eigen::VectorXd sd(layout.size());
-  sd.head(kCommon) << s.creep_across, s.slip_share, s.engine_gain, s.wheel_gain, s.lag_s, s.servo_s, s.course_gain,
-      s.course_gain;
+  sd.head(kCommon) << s.creep_across, s.slip_share, s.late_s, s.engine_gain, s.wheel_gain, s.lag_s, s.servo_s,
+      s.course_gain, s.course_gain;
   for (std::size_t t = 0; t < layout.trackers.size(); ++t) {
     // A truth without noise is a simulator's.
     const double frame = layout.trackers[t]->truth_heading_sd_rad > 0 ? s.frame_rad : 0;
@@ -59,16 +61,15 @@ Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
   return sd;
 }
 
-// Wheels that turn as they are told, as this engine's do: other engines can do that, too.
+// Wheels that turn as they are told, and are read at once, as this engine's: other engines can do that, too.
 Eigen::VectorXd with_exact_servos(Eigen::VectorXd sd, const Scatter& s) {
-  sd.segment(kCountsColumn, CountsColumns::ColsAtCompileTime) *= s.same_servos;
+  sd.segment(kLateColumn, 1 + CountsColumns::ColsAtCompileTime) *= s.same_servos;
   return sd;
 }
 
-// The marker, the clock and the frame stay what they are, whoever made the recording.
-Eigen::VectorXd of_same_engine(const Eigen::VectorXd& usual, const Layout& layout, const Scatter& s) {
-  Eigen::VectorXd sd = with_exact_servos(usual, s);
-  sd.head(kCountsColumn) *= s.same_engine;
+// Contacts of this engine. The marker, the clock and the frame stay what they are, whoever made the recording.
+Eigen::VectorXd with_same_contacts(Eigen::VectorXd sd, const Layout& layout, const Scatter& s) {
+  sd.head(kLateColumn) *= s.same_engine;
   sd.segment(layout.group(0), layout.tracker(0) - layout.group(0)) *= s.same_engine;
   return sd;
 }
@@ -93,10 +94,9 @@ std::vector<Eigen::VectorXd> by_mount(const Layout& layout, const Scatter& s) {
   return sds;
 }
 
-// Each of these, and each with servos that turn as they are told.
-std::vector<Eigen::VectorXd> of_another_engine(const Layout& layout, const Scatter& s) {
-  std::vector<Eigen::VectorXd> sds = by_mount(layout, s);
-  for (const Eigen::VectorXd& sd : by_mount(layout, s)) sds.push_back(with_exact_servos(sd, s));
+// Each of these, and each with servos that turn as they are told: whose contacts they are says nothing of servos.
+std::vector<Eigen::VectorXd> by_servos(std::vector<Eigen::VectorXd> sds, const Scatter& s) {
+  for (std::size_t i = 0, usual = sds.size(); i < usual; ++i) sds.push_back(with_exact_servos(sds[i], s));
   return sds;
 }
 
@@ -180,9 +180,9 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   const RunGroups& groups = layout.groups;
   const Scatter other = layout.any_free() ? scatter : between_engines(scatter);
   Nuisances n;
-  if (!layout.any_free()) n.shared_sds = of_another_engine(layout, other);
+  if (!layout.any_free()) n.shared_sds = by_servos(by_mount(layout, other), other);
   n.wide = n.shared_sds.size();
-  const std::vector<Eigen::VectorXd> little = of_another_engine(layout, scatter);
+  const std::vector<Eigen::VectorXd> little = by_servos(by_mount(layout, scatter), scatter);
   n.shared_sds.insert(n.shared_sds.end(), little.begin(), little.end());
   n.of_another = n.shared_sds.size();
   n.usual_sd = little[little.size() / 2];
@@ -194,8 +194,7 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   n.engine_sd.head(layout.tracker(0)) = n.shared_sds.front().head(layout.tracker(0));
   n.unexplained_sd = Eigen::VectorXd::Zero(layout.size());
   if (!layout.any_free()) {
-    for (const Eigen::VectorXd& usual : by_mount(layout, scatter))
-      n.shared_sds.push_back(of_same_engine(usual, layout, scatter));
+    for (const Eigen::VectorXd& sd : little) n.shared_sds.push_back(with_same_contacts(sd, layout, scatter));
   }
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
     const Eigen::Index first = layout.group(g);
@@ -223,9 +222,12 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
     const auto impulses = group_impulses(nominal, r);
     const Eigen::Index first = layout.group(groups.group_of[r]);
     for (int i = 0; i < kPerGroup; ++i) raw.col(first + i) = filters[r].propagate(impulses[std::size_t(i)]);
+    // Counts that are read late are behind the pose and behind the commands alike.
+    raw.col(kLateColumn) = raw.col(first + kLeads) + raw.col(first + kLeads + 1);
     const int more_rows = int(counts[r].rows());
     n.shared.push_back(whitened(filters[r], raw, more_rows));
     n.shared.back().block(3 * samples, kCountsColumn, more_rows, counts[r].cols()) = counts[r];
+    n.shared.back().block(3 * samples, kLateColumn, more_rows, 1) = counts[r].col(kLagColumn);
     n.tracks.push_back(std::move(raw));
     const bool is_free = tracker_is_free(*nominal.origin[r]);
     const double radius = is_free ? scatter.real_radius : scatter.radius;

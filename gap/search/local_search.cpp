@@ -71,6 +71,11 @@ std::function<double(const Eigen::VectorXd&)> density_beside(const Model& model,
 
 namespace {
 
+// Of numbers before the recording is looked at: where it does not tell a place, the place is where the robot felt it.
+double log_prior(const Hypothesis& hypothesis, const Eigen::VectorXd& numbers) {
+  return -0.5 * numbers.cwiseQuotient(prior_sd_of({hypothesis})).squaredNorm();
+}
+
 // The top of the hill from one start; `closely`: a start that is near it.
 Eigen::VectorXd local_search(const Density& density, const Screen::Candidate& c, const Eigen::VectorXd& start,
                              bool closely) {
@@ -82,7 +87,10 @@ Eigen::VectorXd local_search(const Density& density, const Screen::Candidate& c,
     min[i] = c.hypothesis.parameters[std::size_t(i)].min;
     max[i] = c.hypothesis.parameters[std::size_t(i)].max;
   }
-  return subplex(density, start, reach, min, max, closely ? 4 * kLeastStep : kLeastStep, kMostTries);
+  const auto posterior = [&](const Eigen::VectorXd& numbers) {
+    return density(numbers) + log_prior(c.hypothesis, numbers);
+  };
+  return subplex(posterior, start, reach, min, max, closely ? 4 * kLeastStep : kLeastStep, kMostTries);
 }
 
 // The best starts of different hills, best first, as some runs see them; the density of the first.
@@ -127,7 +135,7 @@ std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& bas
   Eigen::VectorXd best;
   for (const Eigen::VectorXd& start : c.starts) {
     const Eigen::VectorXd top = local_search(density_on(model, base, c.hypothesis, begun_on(c)), c, start, false);
-    const double there = density(top);
+    const double there = density(top) + log_prior(c.hypothesis, top);
     if (there <= highest) continue;
     highest = there;
     best = top;
@@ -182,7 +190,8 @@ Density density_beside_others(const Model& model, const Fit& fit, const Placed& 
     moved.p.segment(place.at, place.count) = numbers;
     try {
       const auto residual = model.residuals(model.predict({moved.effects()}).front());
-      return evidence(model.grams(residual, columns), model.all_runs(), chosen, sds, shift).log_density;
+      return evidence(model.grams(residual, columns), model.all_runs(), chosen, sds, shift).log_density +
+             log_prior(*place.hypothesis, numbers);
     } catch (const RunError&) {
       return -1e300;
     } catch (const InputError&) {

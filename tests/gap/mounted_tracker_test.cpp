@@ -46,9 +46,9 @@ TEST(MountedTracker, ItsPointTellsHowItWasMounted) {
                                  effect("carpet_drift", {{"metres_per_metre", 0.01}})};
   for (const std::vector<Effect>& effects : {std::vector<Effect>{}, toed, wide}) {
     const Recording recording = campaign(effects, 55);
-    EXPECT_EQ(Subject(recording).model.nuisance_sds().size(), 5u)
+    EXPECT_EQ(Subject(recording).model.nuisance_sds().size(), 6u)
         << "exact: another engine's, by much or by little, with servos of its own or exact ones, or this one's";
-    EXPECT_EQ(Subject(mounted(recording, kByHand)).model.nuisance_sds().size(), 10u) << "or mounted by hand";
+    EXPECT_EQ(Subject(mounted(recording, kByHand)).model.nuisance_sds().size(), 12u) << "or mounted by hand";
   }
 }
 

@@ -94,10 +94,16 @@ TEST(Unknown, LateCountsAreNoSlowMotor) {
 }
 
 // Late counts move the robot as rare ones do, but do not stand still.
-TEST(Unknown, RareCountsAreNoLateOnes) {
+// Rare counts are late by half an interval on the mean. Where the catalogue lacks them that is what is named, and it is
+// said that something is left.
+TEST(Unknown, RareCountsAreMoreThanLateOnes) {
   const Subject p(campaign({effect("encoder_sampling", {{"interval_s", 0.024}})}, 67));
   EXPECT_EQ(first(p.diagnosed()), "encoder_sampling");
-  EXPECT_EQ(first(p.diagnosed({"encoder_sampling"})), "unknown");
+  const Diagnosis without = p.diagnosed({"encoder_sampling"});
+  std::cout << "left of " << without.closure.before_mm << " mm: " << without.closure.after_mm << ", noise makes "
+            << without.closure.floor_mm << "\n";
+  EXPECT_TRUE(without.unexplained);
+  EXPECT_GT(without.closure.after_mm, 1.2 * without.closure.floor_mm);
 }
 
 // Wheels that wear alike shorten every run more; in the mean over all they are smaller wheels.
