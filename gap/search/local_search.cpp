@@ -87,10 +87,7 @@ Eigen::VectorXd local_search(const Density& density, const Screen::Candidate& c,
     min[i] = c.hypothesis.parameters[std::size_t(i)].min;
     max[i] = c.hypothesis.parameters[std::size_t(i)].max;
   }
-  const auto posterior = [&](const Eigen::VectorXd& numbers) {
-    return density(numbers) + log_prior(c.hypothesis, numbers);
-  };
-  return subplex(posterior, start, reach, min, max, closely ? 4 * kLeastStep : kLeastStep, kMostTries);
+  return subplex(density, start, reach, min, max, closely ? 4 * kLeastStep : kLeastStep, kMostTries);
 }
 
 // The best starts of different hills, best first, as some runs see them; the density of the first.
@@ -129,13 +126,15 @@ std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& bas
   if (c.starts.empty()) c.starts = {c.start};
   if (c.starts.size() > std::size_t(c.local_searches)) keep_best_starts(model, base, c);
   if (c.reach.size() == 0) return c.starts.front();
-  const auto density = density_on(model, base, c.hypothesis);
+  const auto density = [&, likelihood = density_on(model, base, c.hypothesis)](const Eigen::VectorXd& numbers) {
+    return likelihood(numbers) + log_prior(c.hypothesis, numbers);
+  };
   if (!c.any_start && density(c.starts.front()) < least) return std::nullopt;
   double highest = -1e301;
   Eigen::VectorXd best;
   for (const Eigen::VectorXd& start : c.starts) {
     const Eigen::VectorXd top = local_search(density_on(model, base, c.hypothesis, begun_on(c)), c, start, false);
-    const double there = density(top) + log_prior(c.hypothesis, top);
+    const double there = density(top);
     if (there <= highest) continue;
     highest = there;
     best = top;
