@@ -144,12 +144,14 @@ void ForwardSearch::fit_dimensions() {
 
 // Places and moments take many simulations: not alone where another effect explains far more than the matched filter
 // sees of them (they are looked for beside it), nor where something else explains all that noise does not, and more
-// than they do where they begin. `most`: what the best of all fits explains.
+// than they do where they begin. What was found at a place or a moment is none of these: the filter does not tell what
+// it is. `most`: what the best of all fits explains.
 bool ForwardSearch::idle(Screen::Candidate& c, double most) const {
   if (c.gain < kLocalHint * kWorthASearch * most) return true;
   double rival = -1e300;
   for (const Fit& f : fits_) {
-    if (explains_all(model_, f, none_, thresholds_)) rival = std::max(rival, f.log_evidence - none_.log_evidence);
+    if (!f.is_local() && explains_all(model_, f, none_, thresholds_))
+      rival = std::max(rival, f.log_evidence - none_.log_evidence);
   }
   if (rival < c.gain) return false;
   if (c.gain < kLocalHint * rival) return true;
