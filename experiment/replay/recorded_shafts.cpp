@@ -1,6 +1,7 @@
 #include "experiment/replay/recorded_shafts.h"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 
 #include "recording/coarse_counts.h"
@@ -202,23 +203,21 @@ CommandLag measured_lag(const RecordedRun& run, const RecordedRobot& robot, int 
     const std::vector<double> speed = obeyed(run.encoders, kCommand[w], {});
     all_s += 0.5 * counts_behind(speed, commanded(run.encoders, speed, steps), counted[w], ahead_s, step_rad).lag_s;
   }
-  CommandLag best{0, all_s};
-  double least_rad2 = HUGE_VAL;
-  for (const double dead : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    const CommandLag lag{dead * all_s, (1 - dead) * all_s};
-    if (all_s <= 0 && dead > 0) break;
-    double left_rad2 = 0;
+  if (all_s <= 0) return {0, all_s};
+  const auto left_rad2 = [&](double dead_s) {
+    double sum = 0;
     for (int w = 0; w < 2; ++w) {
-      const std::vector<double> turned = commanded(run.encoders, obeyed(run.encoders, kCommand[w], lag), steps);
+      const std::vector<double> speed = obeyed(run.encoders, kCommand[w], {dead_s, all_s - dead_s});
+      const std::vector<double> turned = commanded(run.encoders, speed, steps);
       std::vector<double> ahead = counted[w];
       for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] -= turned[i];
-      left_rad2 += gain_of(ahead, turned).left_rad2;
+      sum += gain_of(ahead, turned).left_rad2;
     }
-    if (left_rad2 >= least_rad2) continue;
-    least_rad2 = left_rad2;
-    best = lag;
-  }
-  return best;
+    return sum;
+  };
+  constexpr int kBits = 8;
+  const double dead_s = boost::math::tools::brent_find_minima(left_rad2, 0.0, all_s, kBits).first;
+  return {dead_s, all_s - dead_s};
 }
 
 std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec, const EncoderFaults& faults,

@@ -96,8 +96,8 @@ TEST_P(RecordedShafts, MotorsWithAnIntegralPartAreFollowedWithinACount) {
             << integral.systematic << "; of a lag by " << lag.all << " and " << lag.systematic << "\n";
   EXPECT_LT(integral.all, 0.25);
   EXPECT_LT(integral.systematic, 0.2);
-  EXPECT_LT(lag.all, 0.18);
-  EXPECT_LT(lag.systematic, 0.15);
+  EXPECT_LT(lag.all, 0.12);
+  EXPECT_LT(lag.systematic, 0.09);
 }
 
 INSTANTIATE_TEST_SUITE_P(Counts, RecordedShafts, ::testing::Values(360, 1000, 2000, 8000));
