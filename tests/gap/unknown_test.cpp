@@ -93,9 +93,8 @@ TEST(Unknown, LateCountsAreNoSlowMotor) {
   EXPECT_EQ(first(without), "unknown");
 }
 
-// Late counts move the robot as rare ones do, but do not stand still.
-// Rare counts are late by half an interval on the mean. Where the catalogue lacks them that is what is named, and it is
-// said that something is left.
+// Rare counts are late by half an interval on the mean, and stand still in between. Where the catalogue lacks them that
+// is what is named, and it is said that something is left.
 TEST(Unknown, RareCountsAreMoreThanLateOnes) {
   const Subject p(campaign({effect("encoder_sampling", {{"interval_s", 0.024}})}, 67));
   EXPECT_EQ(first(p.diagnosed()), "encoder_sampling");
