@@ -105,6 +105,18 @@ std::vector<double> speeds(const std::vector<double>& angle, const std::vector<E
   return speed;
 }
 
+// Speeds that were read late, at the samples. What had turned before the first reading is not known.
+std::vector<double> sooner(const std::vector<double>& speed, const std::vector<EncoderSample>& s, double late_s) {
+  if (late_s == 0) return speed;
+  std::vector<double> then;
+  EncoderClock clock(s);
+  for (const EncoderSample& sample : s) {
+    const auto m = clock.at(sample.time_s + late_s);
+    then.push_back(m.between(speed[m.before], speed[m.before + 1]));
+  }
+  return then;
+}
+
 // Least squares of how much further a shaft turns than commanded, per commanded angle, and the squares that it leaves.
 struct Gain {
   double per_rad = 0;
@@ -239,30 +251,21 @@ std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec
     const double missed = std::min(0.9, faults.missed_probability + faults.missed_probability_per_radps * speed);
     angle[i] = angle[i - 1] + counted / (1 - missed);
   }
-  if (spec.latency_s > 0) {
-    const std::vector<double> late = angle;
-    EncoderClock clock(s);
-    for (std::size_t i = 0; i < s.size(); ++i) {
-      const auto m = clock.at(s[i].time_s + spec.latency_s);
-      angle[i] = m.between(late[m.before], late[m.before + 1]);
-    }
-    // At the start nothing had turned yet: what is missing there is not known.
-    const double offset = angle.front();
-    for (double& a : angle) a -= offset;
+  if (!run.has_commands) {
+    return sooner(half_a_step_later(speeds(smoothed(std::move(angle)), s), steps), s, spec.latency_s);
   }
-  if (!run.has_commands) return half_a_step_later(speeds(smoothed(std::move(angle)), s), steps);
   // The commands say finely what the counts say coarsely: the motor follows them, and drifts from them slowly.
   const auto command = left ? &EncoderSample::left_command_radps : &EncoderSample::right_command_radps;
-  const double read_late_s = spec.latency_s + spec.sampling_interval_s / 2;
-  const double late_s = std::max(0.0, lag.all_s() - read_late_s);
-  const double dead_s = std::clamp(lag.dead_s - read_late_s, 0.0, late_s);
+  const double latched_s = spec.sampling_interval_s / 2;
+  const double late_s = std::max(0.0, lag.all_s() - latched_s);
+  const double dead_s = std::clamp(lag.dead_s - latched_s, 0.0, late_s);
   const std::vector<double> asked = obeyed(s, command, {dead_s, late_s - dead_s});
   const std::vector<double> turned = commanded(s, asked, steps);
   for (std::size_t i = 0; i < s.size(); ++i) angle[i] -= turned[i];
   angle = averaged_within(between_steps(std::move(angle), turned, k * count_step / 2));
   std::vector<double> speed = half_a_step_later(speeds(angle, s), steps);
   for (std::size_t i = 0; i < s.size(); ++i) speed[i] += asked[i];
-  return speed;
+  return sooner(speed, s, spec.latency_s);
 }
 
 std::vector<std::array<double, 2>> arrived(const std::vector<std::array<double, 2>>& shaft,

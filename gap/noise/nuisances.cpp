@@ -61,15 +61,17 @@ Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
   return sd;
 }
 
-// Wheels that turn as they are told, and are read at once, as this engine's: other engines can do that, too.
+// Wheels that turn as they are told, as those of this engine: other engines can do that, too. When they are read is
+// another matter.
 Eigen::VectorXd with_exact_servos(Eigen::VectorXd sd, const Scatter& s) {
-  sd.segment(kLateColumn, 1 + CountsColumns::ColsAtCompileTime) *= s.same_servos;
+  sd.segment(kCountsColumn, CountsColumns::ColsAtCompileTime) *= s.same_servos;
   return sd;
 }
 
-// Contacts of this engine. The marker, the clock and the frame stay what they are, whoever made the recording.
+// This engine's contacts, and its encoders, which are read at once. The marker, the clock and the frame stay what they
+// are, whoever made the recording.
 Eigen::VectorXd with_same_contacts(Eigen::VectorXd sd, const Layout& layout, const Scatter& s) {
-  sd.head(kLateColumn) *= s.same_engine;
+  sd.head(kCountsColumn) *= s.same_engine;
   sd.segment(layout.group(0), layout.tracker(0) - layout.group(0)) *= s.same_engine;
   return sd;
 }
@@ -207,6 +209,9 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   Effect creep = neutral_effect(find_effect("tyre_creep"));
   creep.values.numbers = {0, kCreep};
   const auto crept = drive({creep});
+  Effect late = neutral_effect(find_effect("encoder_latency"));
+  late.values.numbers = {scatter.late_s};
+  const auto read_late = drive({late});
   const auto [slipped, friction] = little_slip(nominal, drive, other.slip_share * floor_m);
   n.slips_at = friction;
   for (std::size_t r = 0; r < nominal.runs(); ++r) {
@@ -223,7 +228,7 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
     const Eigen::Index first = layout.group(groups.group_of[r]);
     for (int i = 0; i < kPerGroup; ++i) raw.col(first + i) = filters[r].propagate(impulses[std::size_t(i)]);
     // Counts that are read late are behind the pose and behind the commands alike.
-    raw.col(kLateColumn) = raw.col(first + kLeads) + raw.col(first + kLeads + 1);
+    raw.col(kLateColumn) = filters[r].error(nominal.tracks[r], read_late[r]) / scatter.late_s;
     const int more_rows = int(counts[r].rows());
     n.shared.push_back(whitened(filters[r], raw, more_rows));
     n.shared.back().block(3 * samples, kCountsColumn, more_rows, counts[r].cols()) = counts[r];

@@ -20,7 +20,7 @@ struct Scatter {
   double turns_between = 3e-3;  ///< of all turns, between recordings of one robot: kinds of driving that tyres scrub in
   double heading_rad_pm = 5e-5;  ///< along legs
   double lateral = 3e-5;         ///< along legs
-  double late_s = 0.008;         ///< by which counts are read late; chosen between recordings (docs/gap-method.md)
+  double late_s = 0.004;         ///< by which counts are read late; MuJoCo's are by 4.5 ms
   double lead_s = 0;        ///< of the pose before the counts, as speed goes, along and turning: contacts that creep
   double marker_m = 0.003;  ///< of the tracked point from the axle's middle, where it was mounted by hand
   double frame_rad = 0.02;  ///< of the tracker's heading from the drive axis, the same
