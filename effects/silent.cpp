@@ -40,17 +40,6 @@ bool same(const Motor& a, const Motor& b) {
          deadband == b.deadband_radps && backlash == b.backlash_rad;
 }
 
-bool same(const EncoderFaults& a, const EncoderFaults& b) {
-  const auto& [missed, missed_per_radps] = a;
-  return missed == b.missed_probability && missed_per_radps == b.missed_probability_per_radps;
-}
-
-bool same(const EncoderSpec& a, const EncoderSpec& b) {
-  const auto& [ticks, rate, interval, latency, left, right] = a;
-  return ticks == b.ticks_per_revolution && rate == b.rate_hz && interval == b.sampling_interval_s &&
-         latency == b.latency_s && same(left, b.left) && same(right, b.right);
-}
-
 bool same(const CommandedMotion& a, const CommandedMotion& b) {
   const auto& [acceleration, turn] = a;
   return acceleration == b.acceleration_factor && turn == b.turn_speed_factor;
@@ -74,7 +63,7 @@ bool same(const Rig& a, const Rig& b) {
   const auto& [robot, drivetrain, encoders, floor, commanded_motion, pushes, run] = a;
   return same(robot.base, b.robot.base) && all_same(robot.wheels, b.robot.wheels) &&
          all_same(robot.casters, b.robot.casters) && all_same(drivetrain.motor, b.drivetrain.motor) &&
-         same(encoders, b.encoders) && same(floor, b.floor) && same(commanded_motion, b.commanded_motion) &&
+         encoders == b.encoders && same(floor, b.floor) && same(commanded_motion, b.commanded_motion) &&
          pushes.size() == b.pushes.size() && run.id == b.run.id;
 }
 

@@ -13,6 +13,8 @@ namespace umbsim {
 struct EncoderFaults {
   double missed_probability = 0;          ///< that a tick is not counted
   double missed_probability_per_radps = 0;  ///< grows with the wheel's speed by this
+
+  bool operator==(const EncoderFaults&) const = default;
 };
 
 /// An incremental encoder on each drive wheel, read at a fixed rate.
@@ -23,6 +25,8 @@ struct EncoderSpec {
   double latency_s = 0;                ///< a reading is this old when it arrives
   EncoderFaults left;
   EncoderFaults right;
+
+  bool operator==(const EncoderSpec&) const = default;
 };
 
 /// Counts of a wheel that has turned by `angle_rad`. Rounds to the nearest tick, so that a robot and its mirror image

@@ -125,6 +125,11 @@ Replay::Replay(const Scenario& scenario, const Recording& recording, bool by_tra
     start_.push_back(track ? start_of(run, recording.robot) : run.truth.front().X_WB);
     lag_.push_back(measured_lag(run, recording.robot, steps_));
   }
+  for (std::size_t r = 0; r < recording.runs.size(); ++r) {
+    const Rig as_it_is = rig(r, {});
+    believed_.push_back(as_it_is.encoders);
+    shafts_.push_back(shafts(r, as_it_is));
+  }
 }
 
 Rig Replay::rig(std::size_t index, const std::vector<Effect>& effects) const {
@@ -195,18 +200,19 @@ Rig Replay::shafts_as_counted(Rig r) const {
   return r;
 }
 
-ShaftDrive Replay::shafts(std::size_t index, const Rig& supposed) const {
+std::array<std::vector<double>, 2> Replay::shafts(std::size_t index, const Rig& supposed) const {
   const RecordedRun& run = recording_.runs[index];
   const double step = coarse_step(supposed);
   EncoderSpec e = supposed.encoders;
   e.ticks_per_revolution = recording_.robot.ticks_per_revolution;
-  return {run.encoders, shaft_speeds(run, e, e.left, true, lag_[index], steps_, step),
-          shaft_speeds(run, e, e.right, false, lag_[index], steps_, step), start_[index]};
+  return {shaft_speeds(run, e, e.left, true, lag_[index], steps_, step),
+          shaft_speeds(run, e, e.right, false, lag_[index], steps_, step)};
 }
 
 // The way of the shafts decides how rough the floor is under the wheels, whatever else happens to the robot.
 ShaftDrive Replay::drive_of(std::size_t index, const Rig& supposed, double roughness_m_per_sqrt_m) const {
-  ShaftDrive drive = shafts(index, supposed);
+  auto [left, right] = supposed.encoders == believed_[index] ? shafts_[index] : shafts(index, supposed);
+  ShaftDrive drive{recording_.runs[index].encoders, std::move(left), std::move(right), start_[index]};
   if (roughness_m_per_sqrt_m == 0) return drive;
   RollingNoise rolling(roughness_m_per_sqrt_m, supposed);
   std::array<double, 2> shaft_rad{};

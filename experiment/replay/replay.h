@@ -55,10 +55,10 @@ class Replay {
  private:
   Rig rig(std::size_t run, const std::vector<Effect>& effects) const;
   Rig shafts_as_counted(Rig rig) const;
-  ShaftDrive shafts(std::size_t run, const Rig& supposed) const;
+  /// Speeds (left, right) at the encoders' samples, rad/s.
+  std::array<std::vector<double>, 2> shafts(std::size_t run, const Rig& supposed) const;
   ShaftDrive drive_of(std::size_t run, const Rig& supposed, double roughness_m_per_sqrt_m) const;
-  std::vector<Pose2> driven(std::size_t run, const std::vector<Effect>& effects,
-                            double roughness_m_per_sqrt_m) const;
+  std::vector<Pose2> driven(std::size_t run, const std::vector<Effect>& effects, double roughness_m_per_sqrt_m) const;
   double coarse_step(const Rig& rig) const;
   CommandFeatures asked(const CommandedMotion& motion) const;
 
@@ -68,11 +68,13 @@ class Replay {
   int first_run_;
   RobotModel nominal_;
   std::vector<std::vector<Stretch>> stretches_;
-  std::vector<Pose2> start_;   // of each run
-  CommandFeatures as_declared_{};  // what shows where the course is driven as it was declared
-  int steps_ = 1;              // of the simulator in one period of the encoders
-  double count_step_ = 1;      // width of the encoders' steps, in counts of the recording
-  std::vector<CommandLag> lag_;  // of the counts behind the commands, per run
+  std::vector<Pose2> start_;                                // of each run
+  CommandFeatures as_declared_{};                           // what shows where the course is driven as it was declared
+  int steps_ = 1;                                           // of the simulator in one period of the encoders
+  double count_step_ = 1;                                   // width of the encoders' steps, in counts of the recording
+  std::vector<CommandLag> lag_;                             // of the counts behind the commands, per run
+  std::vector<EncoderSpec> believed_;                       // of each run, as the scenario has them
+  std::vector<std::array<std::vector<double>, 2>> shafts_;  // of each run, if they are so
   std::shared_ptr<Traces> traces_ = std::make_shared<Traces>(kTracesKept);
 };
 
