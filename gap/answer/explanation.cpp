@@ -159,15 +159,16 @@ void leave_the_ordinary_out(const Context& w, Fit& best, Diagnosis& d) {
 }
 
 // The fit of what counts show, or else of what rolls, and, if there is a gap to close, of what the world does at a
-// place or along a direction, or a toed wheel to one side: engines differ wherever wheels touch the floor, and all
-// round.
+// place or along a direction, or a toed wheel to one side: engines differ wherever wheels touch the floor, all round,
+// and in all runs alike.
 Fit without_contacts(const Context& w, Fit fit, const Closure& closure) {
   const auto counted = [](const Hypothesis& h) { return shows_in_counts(h); };
   const bool any_counted = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(), counted);
   for (std::size_t i = 0; i < fit.hypotheses.size();) {
     const Hypothesis& h = fit.hypotheses[i];
     const bool scrubs = is(h.effect, kScrubs);
-    const bool may_be_engines = is_contact(h.effect) || scrubs || (any_counted && !counted(h));
+    const bool in_all_runs = h.values(start_of(h)).run.empty();
+    const bool may_be_engines = in_all_runs && (is_contact(h.effect) || scrubs || (any_counted && !counted(h)));
     const bool stays = !may_be_engines || (closure.known && (scrubs || is_of_the_world(h.effect)));
     Fit less = stays ? fit : w.model.without(fit, i);
     if (stays || counts_lose(w, less, fit))

@@ -218,14 +218,15 @@ std::vector<Screen::Candidate> Screen::on_top_of(const Fit& fit) const {
 
 std::vector<std::size_t> worth_a_fit(const std::vector<Screen::Candidate>& singles) {
   constexpr std::size_t kFitted = 8;
-  constexpr double kShown = 50;   // log evidence of a commanded motion in commands
+  constexpr double kShown = 50;   // log evidence of what counts or commands show
   constexpr double kBehind = 15;  // log evidence
   std::vector<std::size_t> promising;
   for (std::size_t i = 0; i < singles.size(); ++i) {
     // Where the simulator bends, the screen is only a hint: such hypotheses are tried a little longer.
     if (singles[i].gain < (singles[i].hypothesis.from_zero ? 2 : 1)) continue;
-    // What commands show is tried however much more the tracks say of something else.
-    const bool shown = is_commanded_motion(singles[i].hypothesis.effect) && singles[i].gain > kShown;
+    // What counts or commands show is tried however much more the tracks say of something else.
+    const Hypothesis& h = singles[i].hypothesis;
+    const bool shown = (is_commanded_motion(h.effect) || shows_in_counts(h)) && singles[i].gain > kShown;
     if (i >= kFitted && singles[i].gain < singles.front().gain - kBehind && !shown) continue;
     promising.push_back(i);
   }
