@@ -193,7 +193,7 @@ TEST(WeakCause, RareSamplesBesideLateCounts) {
   ASSERT_EQ(d.causes.front().name, "encoder_latency+encoder_sampling");
   const ParameterEstimate e = estimate(d, "interval_s");
   EXPECT_TRUE(holds(e, 0.0222));
-  EXPECT_LT(e.ci95[1] - e.ci95[0], 0.003);
+  EXPECT_GT(e.ci95[0], 0.02);  // rarer than the readings, that is
 }
 
 // One encoder that loses counts is simpler than two, and hardly differs from two of which one loses few.
