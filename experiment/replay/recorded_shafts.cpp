@@ -105,7 +105,7 @@ std::vector<double> speeds(const std::vector<double>& angle, const std::vector<E
   return speed;
 }
 
-// Speeds at the samples, of which all were read late. What had turned before the first reading is not known.
+// Speeds that were read late, at the samples. What had turned before the first reading is not known.
 std::vector<double> sooner(const std::vector<double>& speed, const std::vector<EncoderSample>& s, double late_s) {
   if (late_s == 0) return speed;
   std::vector<double> then;
@@ -256,10 +256,10 @@ std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec
   }
   // The commands say finely what the counts say coarsely: the motor follows them, and drifts from them slowly.
   const auto command = left ? &EncoderSample::left_command_radps : &EncoderSample::right_command_radps;
-  const double read_late_s = spec.latency_s + spec.sampling_interval_s / 2;
-  const double late_s = std::max(0.0, lag.all_s() - read_late_s);
-  const double dead_s = std::clamp(lag.dead_s - read_late_s, 0.0, late_s);
-  const std::vector<double> asked = obeyed(s, command, {dead_s + spec.latency_s, late_s - dead_s});
+  const double latched_s = spec.sampling_interval_s / 2;
+  const double late_s = std::max(0.0, lag.all_s() - latched_s);
+  const double dead_s = std::clamp(lag.dead_s - latched_s, 0.0, late_s);
+  const std::vector<double> asked = obeyed(s, command, {dead_s, late_s - dead_s});
   const std::vector<double> turned = commanded(s, asked, steps);
   for (std::size_t i = 0; i < s.size(); ++i) angle[i] -= turned[i];
   angle = averaged_within(between_steps(std::move(angle), turned, k * count_step / 2));

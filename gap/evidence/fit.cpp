@@ -89,6 +89,15 @@ void Model::take_derivatives(const Fit& at, Descent& d) const {
   d.learned = false;
 }
 
+// Beside these numbers the robot may tip over, both ways: then what the descent has learned serves.
+void Model::take_derivatives_again(const Fit& at, Descent& d) const {
+  try {
+    take_derivatives(at, d);
+  } catch (const std::runtime_error&) {  // RunError or InputError
+    d.learned = false;
+  }
+}
+
 Eigen::VectorXd Model::solve(Fit& at, const std::vector<std::size_t>& runs, const Descent& d) const {
   const Eigen::Index m = at.p.size();
   at.columns = d.known->columns;
@@ -162,7 +171,7 @@ Fit Model::descend(const std::vector<Hypothesis>& hypotheses, const Eigen::Vecto
     bool ends = density < d.density + 0.05 || d.change < 0.1;
     d.density = density;
     if (ends && d.learned && sure) {
-      take_derivatives(fit, d);
+      take_derivatives_again(fit, d);
       next = d.next_numbers(fit, solve(fit, runs, d), free);
       ends = d.change < 0.1;
     }
@@ -182,7 +191,7 @@ Fit Model::fit(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd&
   Descent d{known};
   Fit best = descend(hypotheses, start, descending, runs, d, true);
   if (d.learned) {
-    take_derivatives(best, d);
+    take_derivatives_again(best, d);
     solve(best, runs, d);
   }
   best.log_chance = log_chance(best.effects());

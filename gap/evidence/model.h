@@ -233,6 +233,7 @@ class Model {
   Eigen::VectorXd feature_rows(std::size_t run, const Predicted& a, const Predicted& b) const;
   Linearisation linearised(const Fit& fit) const;
   void take_derivatives(const Fit& at, Descent& d) const;
+  void take_derivatives_again(const Fit& at, Descent& d) const;
   Eigen::VectorXd solve(Fit& at, const std::vector<std::size_t>& runs, const Descent& d) const;
   Fit descend(const std::vector<Hypothesis>& hypotheses, const Eigen::VectorXd& start, const Descending& descending,
               const std::vector<std::size_t>& runs, Descent& d, bool sure) const;

@@ -224,9 +224,11 @@ std::vector<std::size_t> worth_a_fit(const std::vector<Screen::Candidate>& singl
   for (std::size_t i = 0; i < singles.size(); ++i) {
     // Where the simulator bends, the screen is only a hint: such hypotheses are tried a little longer.
     if (singles[i].gain < (singles[i].hypothesis.from_zero ? 2 : 1)) continue;
-    // What counts or commands show is tried however much more the tracks say of something else.
+    // What commands show is tried however much more the tracks say of something else, and so is what rolls and counts
+    // show: where readings come late, the nuisance that does the same hides most of what is gained.
     const Hypothesis& h = singles[i].hypothesis;
-    const bool shown = (is_commanded_motion(h.effect) || shows_in_counts(h)) && singles[i].gain > kShown;
+    const bool shown =
+        (is_commanded_motion(h.effect) || (is_kinematic(h.effect) && shows_in_counts(h))) && singles[i].gain > kShown;
     if (i >= kFitted && singles[i].gain < singles.front().gain - kBehind && !shown) continue;
     promising.push_back(i);
   }
