@@ -105,7 +105,7 @@ std::vector<double> speeds(const std::vector<double>& angle, const std::vector<E
   return speed;
 }
 
-// Speeds that were read late, at the samples. What had turned before the first reading is not known.
+// Speeds at the samples, of which all were read late. What had turned before the first reading is not known.
 std::vector<double> sooner(const std::vector<double>& speed, const std::vector<EncoderSample>& s, double late_s) {
   if (late_s == 0) return speed;
   std::vector<double> then;
