@@ -1,8 +1,17 @@
 #include "odometry/encoder.h"
 
+#include <cmath>
+
 namespace umbsim {
 namespace {
 constexpr double kClockSlack_s = 1e-9;  // times are sums of periods
+}
+
+double mean_latch_age_s(double interval_s, double period_s) {
+  if (interval_s <= period_s) return 0;
+  const double periods = interval_s / period_s;  // in the mean: n or n + 1, with ages of 0 to n - 1 or n
+  const double n = std::floor(periods);
+  return period_s * n * (n - 1 + 2 * (periods - n)) / (2 * periods);
 }
 
 // Every tick that passes is missed with its probability, forwards and backwards alike.

@@ -29,6 +29,10 @@ struct EncoderSpec {
   bool operator==(const EncoderSpec&) const = default;
 };
 
+/// Mean age, s, of latched counts as they are read, a reading every `period_s`. The first reading after an interval
+/// latches: from one latch to the next it takes whole periods, n or n + 1, of which the counts stand still all but one.
+double mean_latch_age_s(double interval_s, double period_s);
+
 /// Counts of a wheel that has turned by `angle_rad`. Rounds to the nearest tick, so that a robot and its mirror image
 /// count alike.
 inline std::int64_t ticks(const EncoderSpec& spec, double angle_rad) {

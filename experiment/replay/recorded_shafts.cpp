@@ -117,6 +117,10 @@ std::vector<double> sooner(const std::vector<double>& speed, const std::vector<E
   return then;
 }
 
+double latch_age_s(const EncoderSpec& spec, const std::vector<EncoderSample>& s) {
+  return mean_latch_age_s(spec.sampling_interval_s, (s.back().time_s - s.front().time_s) / double(s.size() - 1));
+}
+
 // Least squares of how much further a shaft turns than commanded, per commanded angle, and the squares that it leaves.
 struct Gain {
   double per_rad = 0;
@@ -256,7 +260,7 @@ std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec
   }
   // The commands say finely what the counts say coarsely: the motor follows them, and drifts from them slowly.
   const auto command = left ? &EncoderSample::left_command_radps : &EncoderSample::right_command_radps;
-  const double latched_s = spec.sampling_interval_s / 2;
+  const double latched_s = latch_age_s(spec, s);
   const double late_s = std::max(0.0, lag.all_s() - latched_s);
   const double dead_s = std::clamp(lag.dead_s - latched_s, 0.0, late_s);
   const std::vector<double> asked = obeyed(s, command, {dead_s, late_s - dead_s});
@@ -283,7 +287,7 @@ std::vector<std::array<double, 2>> arrived(const std::vector<std::array<double, 
     if (step_rad == 0) continue;
     for (std::array<double, 2>& angle : counted) angle[w] = std::round(angle[w] / step_rad) * step_rad;
   }
-  const double late_s = spec.latency_s + spec.sampling_interval_s / 2;
+  const double late_s = spec.latency_s + latch_age_s(spec, s);
   if (late_s == 0) return counted;
   std::vector<std::array<double, 2>> result = counted;
   EncoderClock clock(s);

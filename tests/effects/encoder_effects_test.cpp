@@ -65,6 +65,29 @@ TEST(EncoderSampling, LatchesAtItsInterval) {
   }
 }
 
+// A shaft at constant speed: how far the counts are behind says how old they are.
+TEST(EncoderSampling, CountsAreAsOldAsTheyAreSaidToBeInTheMean) {
+  constexpr double kPeriod_s = 0.02, kSpeed_radps = 3;
+  constexpr int kReadings = 20000;
+  for (const double interval_s : {0.015, 0.02, 0.0222, 0.03, 0.04, 0.05, 0.1, 0.33}) {
+    EncoderSpec spec;
+    spec.ticks_per_revolution = 1e9;
+    spec.sampling_interval_s = interval_s;
+    Encoder encoder(spec, {}, RandomStream(1, "test"));
+    double behind_rad = 0;
+    for (int k = 0; k < kReadings; ++k) {
+      const double angle_rad = kSpeed_radps * k * kPeriod_s;
+      const auto counts = double(encoder.read(k * kPeriod_s, angle_rad));
+      behind_rad += angle_rad - counts * 2 * M_PI / spec.ticks_per_revolution;
+    }
+    const double age_s = behind_rad / kReadings / kSpeed_radps;
+    std::cout << fmt::format("interval {} s: {:.3f} ms old, {:.3f} foretold\n", interval_s, 1e3 * age_s,
+                             1e3 * mean_latch_age_s(interval_s, kPeriod_s));
+    const double cut_short_s = interval_s * interval_s / (2 * kReadings * kPeriod_s);  // the last latch
+    EXPECT_NEAR(age_s, mean_latch_age_s(interval_s, kPeriod_s), cut_short_s + 1e-9) << interval_s;
+  }
+}
+
 // Straight legs and turns in place are arcs of constant curvature, which the odometry's chord form integrates exactly
 // whatever the interval. (Longer ones than this and the driver, who acts on stale poses, begins to swing and skids.)
 TEST(EncoderSampling, CostsNothingWhereCurvatureIsConstant) {

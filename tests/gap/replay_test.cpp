@@ -92,7 +92,9 @@ INSTANTIATE_TEST_SUITE_P(
              {effect("push", {{"leg", 2}, {"seconds_into_leg", 3}, {"impulse_newton_seconds", 30}}, "cw-1")},
              kEvent},
         Case{"encoder_missed_counts", {effect("encoder_missed_counts", {{"right_probability", 0.004}})}, kInTheMean},
-        Case{"encoder_latency", {effect("encoder_latency", {{"seconds", 0.1}})}, kInTheMean}),
+        Case{"encoder_latency", {effect("encoder_latency", {{"seconds", 0.1}})}, kInTheMean},
+        Case{"encoder_sampling_22ms", {effect("encoder_sampling", {{"interval_s", 0.0222}})}, kInTheMean},
+        Case{"encoder_sampling_100ms", {effect("encoder_sampling", {{"interval_s", 0.1}})}, kInTheMean}),
     [](const auto& test) { return std::string(test.param.name); });
 
 /// Mean of the runs' largest distances from the truth.
