@@ -64,6 +64,16 @@ void give_probabilities(std::vector<Cause>& causes) {
   for (Cause& c : causes) c.probability /= sum;
 }
 
+namespace {
+
+// Whether the effects alone lead the robot further from where it was than none do, and by more than noise: what engines
+// differ by would have to make up for it.
+bool leads_away(const Model& model, const Fit& none, const Fit& fit) {
+  return in_sample_error_mm(model, fit) > in_sample_error_mm(model, none) + 1000 * model.noise_floor_m();
+}
+
+}  // namespace
+
 std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, const Thresholds& t) {
   const Fit none = fits.front();
   std::stable_sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) {
@@ -72,6 +82,7 @@ std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, con
   std::vector<Fit> kept;
   std::vector<Needed> needed;  // beside each of these
   for (Fit& fit : fits) {
+    if (leads_away(model, none, fit)) continue;
     // Dimensions pay less. What is as good with one of them exchanged is not told apart.
     const auto exchanged = [&](const Fit& other) {
       return model.tracker_is_free() && other.log_evidence < fit.log_evidence + t.tie &&

@@ -36,6 +36,7 @@ class ForwardSearch {
   std::optional<Fit> tried(const Fit& base, const Screen::Candidate& c, double least);
   void keep_doubtful(const Fit& base, const Needed& needed, Fit fit);
   bool large_enough(const Fit& base, const Fit& fit) const;
+  bool mends_the_place(const Fit& base, const Fit& fit);
   void fit_singles();
   void fit_promising(std::vector<Screen::Candidate>& singles, bool local, Part part);
   void fit_dimensions();

@@ -89,9 +89,13 @@ bool ForwardSearch::large_enough(const Fit& base, const Fit& fit) const {
   // Beside a free tracker's frame and clock a robot is as far from the simulator as the nuisances say, however far
   // its noise makes it stray. What moves counts against commands, and not the robot, is seen there.
   if (model_.tracker_is_free() && !base.hypotheses.empty()) return true;
-  const double smallest = base.hypotheses.empty() ? thresholds_.smallest : thresholds_.smallest_addition;
-  const bool small = fit.size < smallest && fit.seen < thresholds_.least_seen;
-  return !small || shows_in_counts(fit.hypotheses.back());
+  const bool alone = base.hypotheses.empty();
+  if (fit.size >= (alone ? thresholds_.smallest : thresholds_.smallest_addition)) return true;
+  // Any engine shakes a robot otherwise than this one, at a place and beside another effect most of all: that is no
+  // cause. Motors, gears and encoders may move the robot nowhere, and are told by what shakes or by the counts.
+  const bool drive = shows_in_counts(fit.hypotheses.back());
+  if (fit.seen >= thresholds_.least_seen && (drive || (alone && !fit.is_local()))) return true;
+  return drive && model_.counts_misfit(fit) < model_.counts_misfit(base);
 }
 
 void ForwardSearch::fit_singles() {
@@ -183,13 +187,26 @@ void ForwardSearch::add_to(const Fit& base, std::size_t most, Part part, std::ve
     found.push_back(std::move(*fit));
   }
   for (Fit& fit : base.is_local() ? with_the_best_place(model_, std::move(found)) : found) {
-    if (!pays(model_, base, fit, needed)) {
+    if (!pays(model_, base, fit, needed) || mends_the_place(base, fit)) {
       keep_doubtful(base, needed, std::move(fit));
       continue;
     }
     fits_.push_back(fit);
     paying.push_back(std::move(fit));
   }
+}
+
+// Whether what `fit` adds to a place or a moment paid only because that was found better with it: without it, from
+// there, it no longer does.
+bool ForwardSearch::mends_the_place(const Fit& base, const Fit& fit) {
+  if (!base.is_local()) return false;
+  Fit alone = model_.without(fit, fit.hypotheses.size() - 1);
+  if (alone.log_evidence <= base.log_evidence) return false;
+  alone.size = base.size;
+  alone.seen = base.seen;
+  const bool mends = !pays(model_, alone, fit, addition_needed(model_, alone, none_, thresholds_));
+  fits_.push_back(std::move(alone));
+  return mends;
 }
 
 Found search(const Model& model, const Screen& screen, const Thresholds& thresholds, const ProgressCallback& progress) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gap/diagnose.h"
+#include "gap/replay/remembered.h"
 #include "tests/gap/recordings.h"
 
 namespace umbsim::testing {
@@ -19,7 +20,7 @@ struct Subject {
       : recording(std::move(r)),
         replay(with_effects(scenario_of(recording, "."), believed), recording),
         campaign(gap::campaign_of(recording)),
-        model(campaign, simulator(replay), gap::Scatter{}) {}
+        model(campaign, gap::remembered(simulator(replay), recording), gap::Scatter{}) {}
   gap::Diagnosis diagnosed(const std::set<std::string>& excluded = {}) const {
     return gap::diagnose(model, excluded, gap::Thresholds{}, [](const std::string&, double) {});
   }
