@@ -24,6 +24,19 @@ double least_of_a_mend_mm2(const Hypothesis& h, const Closure& closure) {
   return least_mm * least_mm;
 }
 
+// What an explanation leaves may be an error of a tracker's whose frame and clock are free, or what contacts do in
+// another engine. Beside the tracker a place or a moment mends a part of any misfit: what it takes away is not counted.
+bool all_worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure) {
+  if (!closure.known || model.same_engine(fit)) return false;
+  const bool within_noise = closure.after_mm <= closure.most_noise_mm;
+  double worth_mm = closure.together().mm;
+  if (!model.tracker_is_free()) return within_noise && worth_mm > closure.after_mm;
+  for (std::size_t i = 0; i < fit.hypotheses.size(); ++i) {
+    if (fit.hypotheses[i].search_cost > 0) worth_mm -= std::max(0.0, closure.worth[i].mm);
+  }
+  return worth_mm > closure.after_mm || (within_noise && !fit.is_local());
+}
+
 }  // namespace
 
 bool mends_contacts(const Model& model, const Fit& fit, const std::string& effect) {
@@ -35,19 +48,6 @@ void add_nothing(Closure& closure) {
   closure.after_mm = closure.before_mm;
   closure.after_deg = closure.before_deg;
   closure.worth.clear();
-}
-
-// What an explanation leaves may be an error of a tracker's whose frame and clock are free, or what contacts do in
-// another engine. Beside the tracker a place or a moment mends a part of any misfit: what it takes away is not counted.
-bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure) {
-  if (!closure.known || model.same_engine(fit)) return false;
-  const bool within_noise = closure.after_mm <= closure.most_noise_mm;
-  double worth_mm = closure.together().mm;
-  if (!model.tracker_is_free()) return within_noise && worth_mm > closure.after_mm;
-  for (std::size_t i = 0; i < fit.hypotheses.size(); ++i) {
-    if (fit.hypotheses[i].search_cost > 0) worth_mm -= std::max(0.0, closure.worth[i].mm);
-  }
-  return worth_mm > closure.after_mm || (within_noise && !fit.is_local());
 }
 
 bool takes_enough(const Model& model, const Fit& fit, const Closure& closure) {
@@ -81,6 +81,12 @@ void keep_what_foretells(const Model& model, Fit& twin, Closure& closure) {
     else
       add_nothing(closure);
   }
+}
+
+bool worth_more_than_rest(const Model& model, Fit fit, Closure closure) {
+  if (all_worth_more_than_rest(model, fit, closure)) return true;
+  keep_what_foretells(model, fit, closure);
+  return all_worth_more_than_rest(model, fit, closure);
 }
 
 Remainder remainder_of(const Model& model, const Screen& screen, const Fit& none, const Diagnosis& d, double leftover) {

@@ -15,9 +15,9 @@ bool mends_contacts(const Model& model, const Fit& fit, const std::string& effec
 void add_nothing(Closure& closure);
 
 /// Whether an explanation of runs that another engine, or a robot, made takes more millimetres off held-out runs than
-/// it leaves, and leaves no more than noise makes. If the tracker's frame and clock are free either is enough: what is
-/// left of the evidence may be the tracker.
-bool worth_more_than_rest(const Model& model, const Fit& fit, const Closure& closure);
+/// it leaves, and leaves no more than noise makes; or else the part of it that foretells them (keep_what_foretells). If
+/// the tracker's frame and clock are free either is enough: what is left of the evidence may be the tracker.
+bool worth_more_than_rest(const Model& model, Fit fit, Closure closure);
 
 /// Whether a fit by which another engine made the runs takes enough off held-out ones: each effect that may mend its
 /// contacts as much as noise makes, and, if it acts everywhere, as much as is left. `closure`: of the fit.

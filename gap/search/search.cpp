@@ -91,11 +91,13 @@ bool ForwardSearch::large_enough(const Fit& base, const Fit& fit) const {
   if (model_.tracker_is_free() && !base.hypotheses.empty()) return true;
   const bool alone = base.hypotheses.empty();
   if (fit.size >= (alone ? thresholds_.smallest : thresholds_.smallest_addition)) return true;
+  // Motors and encoders may move the robot nowhere, where counts and commands are nearer with them.
+  const Hypothesis& added = fit.hypotheses.back();
+  const bool drive = shows_in_counts(added);
+  if (drive && model_.counts_misfit(fit) < model_.counts_misfit(base)) return true;
   // Any engine shakes a robot otherwise than this one, at a place and beside another effect most of all: that is no
-  // cause. Motors, gears and encoders may move the robot nowhere, and are told by what shakes or by the counts.
-  const bool drive = shows_in_counts(fit.hypotheses.back());
-  if (fit.seen >= thresholds_.least_seen && (drive || (alone && !fit.is_local()))) return true;
-  return drive && model_.counts_misfit(fit) < model_.counts_misfit(base);
+  // cause, unless it is play.
+  return fit.seen >= thresholds_.least_seen && (alone ? !fit.is_local() : drive && !is_kinematic(added.effect));
 }
 
 void ForwardSearch::fit_singles() {
