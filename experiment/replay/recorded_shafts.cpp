@@ -123,8 +123,7 @@ double latch_age_s(const EncoderSpec& spec, const std::vector<EncoderSample>& s)
 
 // Least squares of how much further a shaft turns than commanded, per commanded angle, and the squares that it leaves.
 struct Gain {
-  double per_rad = 0;
-  double left_rad2 = 0;
+  double per_rad = 0, left_rad2 = 0;
 };
 
 Gain gain_of(const std::vector<double>& ahead, const std::vector<double>& turned) {
