@@ -83,7 +83,8 @@ Candidate candidate(const std::vector<double>& counts, double width, double up_t
   for (const double c : counts) {
     if (c > up_to) break;
     n += 1;
-    hits += std::llround(std::round(c / width) * width) == std::llround(c);
+    const double off = double(std::int64_t(c / width + 0.5)) * width - c;  // of the nearest multiple; c has no sign
+    hits += off >= -0.5 && off < 0.5;
   }
   return {width, hits * std::log(width) + (n - hits) * miss, hits > 0.995 * n};
 }
@@ -95,8 +96,10 @@ double narrow_step(const std::vector<double>& counts) {
   std::vector<Candidate> kept;
   for (double q = kNarrowest; q < kNarrow; q += apart() * q) kept.push_back(candidate(counts, q, up_to));
   while (true) {
-    std::sort(kept.begin(), kept.end(), [](const Candidate& a, const Candidate& b) { return a.evidence > b.evidence; });
-    if (kept.size() > kCandidates) kept.resize(kCandidates);
+    const std::size_t best = std::min(kept.size(), kCandidates);
+    std::partial_sort(kept.begin(), kept.begin() + std::ptrdiff_t(best), kept.end(),
+                      [](const Candidate& a, const Candidate& b) { return a.evidence > b.evidence; });
+    kept.resize(best);
     if (up_to >= 16 * counts.back()) break;  // finer than all counts need, so that none is missed
     const double before = apart();
     up_to *= 4;
