@@ -25,15 +25,14 @@ bool adds_local(const Fit& base, const Fit& fit) {
   });
 }
 
-// Whether all effects that a fit adds to another are of a kind.
-bool adds_only(const Fit& base, const Fit& fit, bool (*of_kind)(const std::string& effect)) {
+bool adds_dimensions_alone(const Fit& base, const Fit& fit) {
   const auto in_base = [&](const std::string& effect) {
     return std::any_of(base.hypotheses.begin(), base.hypotheses.end(),
                        [&](const Hypothesis& g) { return g.effect == effect; });
   };
   return fit.hypotheses.size() > base.hypotheses.size() &&
          std::all_of(fit.hypotheses.begin(), fit.hypotheses.end(),
-                     [&](const Hypothesis& f) { return of_kind(f.effect) || in_base(f.effect); });
+                     [&](const Hypothesis& f) { return is_dimension(f.effect) || in_base(f.effect); });
 }
 
 // Squares, in standard deviations, that a fit leaves beyond noise. Single readings count up to a bound only: a cable or
@@ -96,12 +95,10 @@ Needed addition_needed(const Model& model, const Fit& base, const Fit& none, con
   // Where much is left the noise model is too narrow for what it is asked: evidence in units of what is left.
   const double spread = std::max(1.0, base.misfit / model.rows() - t.noise_error);
   const double own = spread * (t.addition + t.addition_share * gained);
-  const double in_tracks = spread * (t.addition + t.addition_share * std::max(0.0, gained - counts_gained));
   const double for_misfit = t.misfit_share * left / 2;
   Needed needed;
   needed.gained = gained;
   needed.left = left;
-  needed.dimension = std::max(in_tracks, for_misfit);
   needed.everywhere = std::max(own, for_misfit);
   needed.local = std::max(own, t.local_misfit_share * left / 2);
   // Counts and command features are measured as they are: no noise of the tracks, and no misfit of theirs, speaks
@@ -115,15 +112,14 @@ Needed addition_needed(const Model& model, const Fit& base, const Fit& none, con
 bool pays(const Model& model, const Fit& base, const Fit& fit, const Needed& needed, double extra) {
   const double gain = fit.log_evidence - base.log_evidence;
   // Dimensions of a real robot are always a little off: they pay for their numbers, and no more.
-  if (model.tracker_is_free() && adds_only(base, fit, is_dimension)) return gain >= extra * Thresholds{}.effect_cost;
+  if (model.tracker_is_free() && adds_dimensions_alone(base, fit)) return gain >= extra * Thresholds{}.effect_cost;
   // What leaves most of the misfit as it was mends an error of the model, as any effect could. The model of what rolls
   // and counts has none: there it is noise that is not as it was thought to be.
-  const bool leaves_most = !fit.is_kinematic() && excess(model, fit) > kMost * needed.left;
-  const bool dear = leaves_most || adds_local(base, fit);
-  // A radius or a wheelbase acts alike in every engine, and on the tracks alone.
-  const double least = adds_only(base, fit, is_dimension) ? needed.dimension : dear ? needed.local : needed.everywhere;
+  // Nor is a radius or a wheelbase such an error: these act alike in every engine.
+  const bool mends = !fit.is_kinematic() && !adds_dimensions_alone(base, fit);
+  const bool dear = (mends && excess(model, fit) > kMost * needed.left) || adds_local(base, fit);
   if (gain < extra * lookalike_share(base, fit) * needed.gained) return false;
-  if (gain >= extra * least) return stays_beside(model, base, fit, needed, extra);
+  if (gain >= extra * (dear ? needed.local : needed.everywhere)) return stays_beside(model, base, fit, needed, extra);
   const double counts = (model.counts_misfit(base) - model.counts_misfit(fit)) / 2;
   // What tracks speak for mostly they must pay for, unless most of what counts show is at stake.
   const bool by_counts = counts > gain / 2 || counts >= extra * kPlain * needed.counts;

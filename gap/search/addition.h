@@ -9,8 +9,7 @@ namespace umbsim::gap {
 
 /// What a further effect must bring on top of a fit: log evidence.
 struct Needed {
-  double dimension = 0;   ///< of a radius or a wheelbase
-  double everywhere = 0;  ///< of another effect that acts on all runs
+  double everywhere = 0;  ///< of an effect that acts on all runs
   double local = 0;       ///< of one place or moment, which finds something to mend in any misfit
   double counts = 0;      ///< or of counts against commands and of command features alone, where tracks say little
   double gained = 0;      ///< what the fit itself brought
