@@ -4,6 +4,7 @@
 #include <lz4frame.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <boost/crc.hpp>
 #include <stdexcept>
 
@@ -56,7 +57,7 @@ std::vector<std::uint8_t> unpacked(const std::string& compression, const std::ui
   std::vector<std::uint8_t> out(unpacked_size);
   if (compression.empty()) {
     if (size != unpacked_size) throw InputError("a chunk is damaged: its sizes differ");
-    std::memcpy(out.data(), data, size);
+    std::copy_n(data, size, out.begin());
   } else if (compression == "zstd") {
     const std::size_t result = ZSTD_decompress(out.data(), out.size(), data, size);
     if (ZSTD_isError(result) || result != out.size()) throw InputError("a chunk is damaged: zstd cannot unpack it");
