@@ -18,6 +18,12 @@ std::string quoted(const std::string& text, char mark) {
   return out + mark;
 }
 
+// What SQLite says of a file's bytes, its schema among them. All other codes speak of the machine.
+bool is_of_content(int code) {
+  return code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR || code == SQLITE_TOOBIG ||
+         code == SQLITE_MISMATCH;
+}
+
 }  // namespace
 
 void Database::Close::operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
@@ -39,7 +45,7 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file.st
 
 void Database::fail(const std::string& doing) const {
   const int code = handle_ ? sqlite3_errcode(handle_.get()) & 0xff : SQLITE_NOMEM;
-  if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
+  if (is_of_content(code)) {
     throw InputError(fmt::format("{}: is damaged or cut off: SQLite says: {}", file_, sqlite3_errmsg(handle_.get())));
   }
   throw RunError(fmt::format("{}: {}: {}", file_, doing, handle_ ? sqlite3_errmsg(handle_.get()) : "out of memory"));
