@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <set>
 
@@ -114,7 +115,9 @@ std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& se
           command_response(recording().runs[r], recording().robot, simulator_.commands(r, effects), step_rad_);
     }
   });
-  for (const std::size_t r : driven) simulated_s_ += double(sets.size()) * recording().runs[r].encoders.back().time_s;
+  double seconds = 0;
+  for (const std::size_t r : driven) seconds += double(sets.size()) * recording().runs[r].encoders.back().time_s;
+  std::atomic_ref(simulated_ms_) += std::llround(1000 * seconds);
   return all;
 }
 

@@ -144,7 +144,7 @@ class Model {
   std::vector<std::size_t> all_runs() const;
   std::vector<std::size_t> one_of_each() const;  ///< the first run of every condition and direction
   double rows() const;                           ///< numbers in all residuals that count
-  double simulated_s() const { return simulated_s_; }
+  double simulated_s() const { return 0.001 * double(simulated_ms_); }
 
   /// All runs under each set of effects. `some`: only these runs are driven, the tracks of the others are empty.
   std::vector<Predicted> predict(const std::vector<std::vector<Effect>>& sets,
@@ -259,7 +259,7 @@ class Model {
     std::vector<RunGram> grams;
   };
   Unmoved unmoved_;  ///< runs without effects
-  mutable double simulated_s_ = 0;
+  mutable long long simulated_ms_ = 0;  ///< threads add to it; whole, so that their order does not show
   mutable std::shared_ptr<const std::vector<PassedPlace>> passed_places_;
   mutable std::array<std::shared_ptr<const std::vector<std::vector<double>>>, 2> noise_m2_;  ///< as it was drawn
 };

@@ -1,5 +1,7 @@
 #include "gap/search/local_search.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -92,8 +94,8 @@ Eigen::VectorXd local_search(const Density& density, const Screen::Candidate& c,
 
 // The best starts of different hills, best first, as some runs see them; the density of the first.
 double keep_best(const Density& density, std::size_t most, Screen::Candidate& c) {
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < c.starts.size(); ++i) order.push_back({-density(c.starts[i]), i});
+  std::vector<std::pair<double, std::size_t>> order(c.starts.size());
+  tbb::parallel_for(std::size_t(0), order.size(), [&](std::size_t i) { order[i] = {-density(c.starts[i]), i}; });
   std::sort(order.begin(), order.end());
   std::vector<Eigen::VectorXd> best;
   for (const auto& [negative, i] : order) {
@@ -130,16 +132,16 @@ std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& bas
     return likelihood(numbers) + log_prior(c.hypothesis, numbers);
   };
   if (!c.any_start && density(c.starts.front()) < least) return std::nullopt;
-  double highest = -1e301;
-  Eigen::VectorXd best;
-  for (const Eigen::VectorXd& start : c.starts) {
-    const Eigen::VectorXd top = local_search(density_on(model, base, c.hypothesis, begun_on(c)), c, start, false);
-    const double there = density(top);
-    if (there <= highest) continue;
-    highest = there;
-    best = top;
-  }
-  if (highest < least) return std::nullopt;
+  std::vector<Eigen::VectorXd> tops(c.starts.size());
+  std::vector<double> heights(c.starts.size());
+  const Density on_few = density_on(model, base, c.hypothesis, begun_on(c));
+  tbb::parallel_for(std::size_t(0), tops.size(), [&](std::size_t i) {
+    tops[i] = local_search(on_few, c, c.starts[i], false);
+    heights[i] = density(tops[i]);
+  });
+  const auto highest = std::max_element(heights.begin(), heights.end());
+  if (*highest < least) return std::nullopt;
+  const Eigen::VectorXd& best = tops[std::size_t(highest - heights.begin())];
   // Whether a wheel comes across a place is a matter of millimetres: the few runs do not speak for all.
   return c.shown_by.empty() ? best : local_search(density, c, best, true);
 }
