@@ -11,6 +11,7 @@
 #include "gap/noise/counts_noise.h"
 #include "gap/noise/least_noise.h"
 #include "gap/noise/noise_floor.h"
+#include "gap/noise/tracker_mount.h"
 #include "gap/replay/run_groups.h"
 #include "recording/coarse_counts.h"
 
@@ -56,9 +57,7 @@ Model::Model(const Campaign& campaign, Simulator simulator, const Scatter& scatt
     without_effects_ = predict({{}}).front();
     nominal_ = beside(campaign, without_effects_.tracks);
   }
-  std::vector<NoiseModel> of_runs;
-  for (std::size_t r = 0; r < all.runs.size(); ++r) of_runs.push_back(noise(r));
-  noise_floor_m_ = gap::noise_floor_m(nominal_, of_runs);
+  noise_floor_m_ = gap::noise_floor_m(nominal_, noise_of_runs());
   observe();
 }
 
@@ -75,7 +74,13 @@ void Model::observe() {
   nuisances_ = make_nuisances(nominal_, filters_, scatter_, drive, noise_floor_m_, counts);
   look_without_effects();
   const Evidence seen = evidence(unmoved_.grams, all_runs(), first_columns(nuisances()), nuisances_.shared_sds.front());
-  settle_trackers(nuisances_, scatter_, seen.mean);
+  settle_trackers(nuisances_, nominal_, noise_of_runs(), scatter_, seen.mean);
+}
+
+std::vector<NoiseModel> Model::noise_of_runs() const {
+  std::vector<NoiseModel> of_runs;
+  for (const std::size_t r : all_runs()) of_runs.push_back(noise(r));
+  return of_runs;
 }
 
 std::string Model::condition(std::size_t run) const {

@@ -135,6 +135,8 @@ class Model {
   /// What other engines make of a run: track errors, as many as nuisances(), and how large each is.
   const Eigen::MatrixXd& engine_tracks(std::size_t run) const { return nuisances_.tracks[run]; }
   const Eigen::VectorXd& engine_sd() const { return nuisances_.engine_sd; }
+  /// Track errors of a run that are its tracker's, by how it was mounted: neither the robot nor the simulator errs.
+  Eigen::VectorXd mount_error(std::size_t run) const { return nuisances_.tracks[run] * nuisances_.mount; }
   /// Whitened columns of a run's own nuisances; the first two are the radii of its wheels.
   const Eigen::MatrixXd& own_columns(std::size_t run) const { return nuisances_.own[run]; }
   /// Of a wheel's radius from run to run.
@@ -225,6 +227,7 @@ class Model {
   static constexpr int kFeatureRows = kCountRows + int(std::tuple_size<CommandFeatures>::value);
 
   void observe();
+  std::vector<NoiseModel> noise_of_runs() const;
   void look_without_effects();  // when filters or nuisances are new
   std::vector<Eigen::MatrixXd> products_of_nuisances() const;
   double roughness_under(const std::vector<Effect>& effects) const;

@@ -54,7 +54,7 @@ TrackMisfit aligned_misfit(const Model& model, std::size_t run, const Eigen::Vec
 }
 
 TrackMisfit aligned_misfit(const Model& model, std::size_t run, const std::vector<Pose2>& predicted) {
-  return aligned_misfit(model, run, track_error(predicted, model.nominal().truth[run]));
+  return aligned_misfit(model, run, track_error(predicted, model.nominal().truth[run]) - model.mount_error(run));
 }
 
 double mean_square_error_m2(const Model& model, const std::vector<std::vector<Pose2>>& tracks) {

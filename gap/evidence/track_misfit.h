@@ -15,7 +15,7 @@ struct TrackMisfit {
 /// `error`: of a predicted track against the recorded one, as track_error() gives it.
 TrackMisfit aligned_misfit(const Model& model, std::size_t run, const Eigen::VectorXd& error);
 
-/// Of a simulated track against the recorded one.
+/// Of a simulated track against the recorded one, but for how the tracker was mounted.
 TrackMisfit aligned_misfit(const Model& model, std::size_t run, const std::vector<Pose2>& predicted);
 
 /// Mean square position error of simulated tracks against the recorded ones, start poses aligned, m^2.

@@ -250,20 +250,4 @@ void whiten_again(Nuisances& n, const NominalReplay& nominal, const std::vector<
   }
 }
 
-void settle_trackers(Nuisances& n, const Scatter& s, const Eigen::VectorXd& mean) {
-  const auto log_density = [](double x, double sd) { return -0.5 * x * x / (sd * sd) - std::log(sd); };
-  double exact = 0;  // log odds
-  for (const Eigen::Index marker : n.markers) {
-    for (const double at_m : mean.segment(marker, 2))
-      exact += log_density(at_m, s.exact_marker_m) - log_density(at_m, s.marker_m);
-  }
-  if (exact <= 0) return;
-  // Each mounted by hand stands before its exact one.
-  std::vector<Eigen::VectorXd> left;
-  for (std::size_t i = 1; i < n.shared_sds.size(); i += 2) left.push_back(std::move(n.shared_sds[i]));
-  n.shared_sds = std::move(left);
-  n.wide /= 2;
-  n.of_another /= 2;
-}
-
 }  // namespace umbsim::gap

@@ -24,15 +24,17 @@ struct Scatter {
   double lead_s = 0;        ///< of the pose before the counts, as speed goes, along and turning: contacts that creep
   double marker_m = 0.003;  ///< of the tracked point from the axle's middle, where it was mounted by hand
   double frame_rad = 0.02;  ///< of the tracker's heading from the drive axis, the same
-  double exact_marker_m = 5e-4;  ///< of the point where it is the axle's middle by definition: a simulation's truth
-  double clock_s = 0.05;         ///< between encoders and tracker
-  double run_clock_s = 0.02;     ///< the same from run to run, where the tracker is free
-  double clock_rate = 1e-3;      ///< of one clock against the other, from run to run, where the tracker is free
-  double creep_across = 0.03;    ///< sideways creep of the tyres
-  double slip_share = 0.2;       ///< displacement by slip under jolts, in noise floors
-  double gain = 4e-4;            ///< of counts over commands
-  double engine_gain = 3e-3;     ///< of the same, alike in all runs and in both wheels: servos droop under their load
-  double wheel_gain = 7e-4;      ///< of the same, of one wheel against the other
+  double exact_marker_m = 5e-4;   ///< of the point where it is the axle's middle by definition: a simulation's truth
+  double exact_start_rad = 5e-4;  ///< of the start where it is that of the course by definition, beside exact_marker_m
+  double placed_m = 0.005;        ///< of the start where the robot was put there by hand, beside frame_rad
+  double clock_s = 0.05;          ///< between encoders and tracker
+  double run_clock_s = 0.02;      ///< the same from run to run, where the tracker is free
+  double clock_rate = 1e-3;       ///< of one clock against the other, from run to run, where the tracker is free
+  double creep_across = 0.03;     ///< sideways creep of the tyres
+  double slip_share = 0.2;        ///< displacement by slip under jolts, in noise floors
+  double gain = 4e-4;             ///< of counts over commands
+  double engine_gain = 3e-3;      ///< of the same, alike in all runs and in both wheels: servos droop under their load
+  double wheel_gain = 7e-4;       ///< of the same, of one wheel against the other
   double course_gain = 1.5e-3;  ///< of the same as the heading from the start goes, cosine and sine, mirrored cw to ccw
   double lag_s = 0.02;          ///< of counts behind commands, alike in all runs: no servo follows at once
   double servo_s = 0.02;        ///< time constant of servos that give way under their load
@@ -56,7 +58,8 @@ struct Nuisances {
   double lead_s = 0;         ///< of the poses of the first (Scatter)
   Eigen::VectorXd usual_sd;  ///< of a hand-mounted tracker, little differences and exact servos: runs are planned so
   std::vector<Eigen::Index> markers;  ///< of trackers that may be exact: first of two numbers, the point that each sees
-  Eigen::VectorXd unexplained_sd;     ///< of the same numbers, if errors of no particular cause stood behind them
+  Eigen::VectorXd mount;  ///< where trackers that were mounted by hand are; 0 of exact and free ones, and of all else
+  Eigen::VectorXd unexplained_sd;       ///< of all, if errors of no particular cause stood behind them
   std::vector<Eigen::MatrixXd> shared;  ///< one number for all runs that it acts in
   std::vector<Eigen::MatrixXd> tracks;  ///< the same as track errors, not whitened
   Eigen::VectorXd engine_sd;            ///< of what engines differ by; 0 of the trackers' numbers
@@ -83,10 +86,5 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
 
 /// Whitens them anew, with other filters.
 void whiten_again(Nuisances& nuisances, const NominalReplay& nominal, const std::vector<TrackFilter>& filters);
-
-/// Leaves trackers that are exact alone, if the points that they see lie in the axle's middle: a heading that is off
-/// the drive axis looks like toe; its point, which little else moves, tells how a tracker was mounted. `mean`:
-/// of all shared numbers, fitted with trackers mounted by hand.
-void settle_trackers(Nuisances& nuisances, const Scatter& scatter, const Eigen::VectorXd& mean);
 
 }  // namespace umbsim::gap
