@@ -126,6 +126,11 @@ RecordedRun whole_run(const Log& log, const ImportOptions& options, RecordedRobo
                to = seconds(std::min(truth_to, wheels_to) - zero) + kEdge_s;
   std::erase_if(run.encoders, [&](const EncoderSample& s) { return s.time_s < from || s.time_s > to; });
   std::erase_if(run.truth, [&](const TruthSample& s) { return s.time_s < from || s.time_s > to; });
+  if (run.encoders.size() < 2 || run.truth.size() < 2) {
+    throw InputError(
+        fmt::format("the wheels were read {} times and the robot seen {} times in the time that both cover",
+                    run.encoders.size(), run.truth.size()));
+  }
   return run;
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <roslz4/lz4s.h>
 
-#include <cstring>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -20,7 +19,7 @@ namespace {
 
 using mcap::Fields;
 
-constexpr std::size_t kMagicBytes = 13;  // "#ROSBAG V2.0\n"
+constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
 
 enum Op : std::uint8_t { kBagHeader = 3, kIndexData = 4, kChunk = 5, kChunkInfo = 6, kConnection = 7 };
 
@@ -110,8 +109,10 @@ void check_index(const Record& index, const std::set<std::uint32_t>& places) {
 }
 
 void check(const MappedFile& file) {
-  if (file.size() <= kMagicBytes || std::memcmp(file.data(), "#ROSBAG V2.0\n", kMagicBytes) != 0) return;
-  Fields fields(file.data() + kMagicBytes, file.size() - kMagicBytes);
+  const std::string_view bytes(reinterpret_cast<const char*>(file.data()), file.size());
+  if (!bytes.starts_with(kMagic))
+    throw InputError("its first line is not #ROSBAG V2.0 (`rosbag fix` makes older ones so)");
+  Fields fields = fields_of(bytes.substr(kMagic.size()));
   std::set<std::uint64_t> places, pointed_at;
   std::set<std::uint32_t> in_chunk;
   while (fields.left() > 0) {
