@@ -92,13 +92,13 @@ function cells(data: SweepData, rows: Row[], c: Choice, width: number): Drawing 
     [...at].map(([y, own]): Place => ({...place(data, own, c), x: x!, y: y!})));
   const height = Math.max(200, Math.min(560, width * Math.min(1.1, Math.max(0.3, yAxis.values.length / xAxis.values.length))));
   const axis = (a: Axis, room: number): Plot.ScaleOptions => ({
-    domain: a.values as string[], label: labelOf(data, a.key), tickFormat: short,
+    domain: a.values as string[], label: labelOf(data, a.key), tickFormat: short, ...(a.values.length > 40 && {padding: 0, round: false}),
     ticks: a.values.filter((_, i) => i % Math.max(1, Math.ceil(a.values.length / room)) === 0) as string[]});
   return {
     label: `${labelOf(data, c.figure)} over ${labelOf(data, c.x)} and ${labelOf(data, c.y)}`, points: pointsOf(data, c, places, (p) => p.y!), grid: "none", height,
     plot: {marginLeft: Math.min(130, 44 + 6 * Math.max(...yAxis.values.map((v) => short(v).length))), marginBottom: 44, marginTop: 28, color: colours(data, rows, c)},
     x: axis(xAxis, width / 56), y: {...axis(yAxis, height / 18), reverse: true},
-    marks: [Plot.cell(places, {x: "x", y: "y", fill, inset: 0, className: "cell"}), Plot.frame({stroke: "var(--line)"}), ...faults(places, (p) => p.y!)],
+    marks: [Plot.cell(places, {x: "x", y: "y", fill, inset: 0, shapeRendering: "crispEdges", className: "cell"}), Plot.frame({stroke: "var(--line)"}), ...faults(places, (p) => p.y!)],
   };
 }
 
