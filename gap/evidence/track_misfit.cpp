@@ -35,11 +35,20 @@ Eigen::VectorXd noise_track(const Model& model, std::size_t run, const Impulses3
 
 }  // namespace
 
-TrackMisfit aligned_misfit(const Model& model, std::size_t run, const Eigen::VectorXd& error) {
+Eigen::VectorXd error_beside_mount(const Model& model, std::size_t run, const std::vector<Pose2>& predicted) {
+  return track_error(predicted, model.nominal().truth[run]) - model.mount_error(run);
+}
+
+Eigen::Vector3d best_start(const Model& model, std::size_t run, const Eigen::VectorXd& error) {
   const TrackFilter& filter = model.filter(run);
   const auto products = filter.impulse_products(filter.whiten(error));
+  return (products.with_itself[0] + 1e-9 * Eigen::Matrix3d::Identity()).ldlt().solve(products.with_column[0]);
+}
+
+TrackMisfit aligned_misfit(const Model& model, std::size_t run, const Eigen::VectorXd& error) {
+  const TrackFilter& filter = model.filter(run);
   Impulses3 start(filter.samples(), Eigen::Vector3d::Zero());
-  start[0] = (products.with_itself[0] + 1e-9 * Eigen::Matrix3d::Identity()).ldlt().solve(products.with_column[0]);
+  start[0] = best_start(model, run, error);
   const Eigen::VectorXd left = error - filter.propagate(start);
   TrackMisfit result;
   double seen = 0;
@@ -54,7 +63,7 @@ TrackMisfit aligned_misfit(const Model& model, std::size_t run, const Eigen::Vec
 }
 
 TrackMisfit aligned_misfit(const Model& model, std::size_t run, const std::vector<Pose2>& predicted) {
-  return aligned_misfit(model, run, track_error(predicted, model.nominal().truth[run]) - model.mount_error(run));
+  return aligned_misfit(model, run, error_beside_mount(model, run, predicted));
 }
 
 double mean_square_error_m2(const Model& model, const std::vector<std::vector<Pose2>>& tracks) {

@@ -12,6 +12,12 @@ struct TrackMisfit {
   double end_rad = 0;
 };
 
+/// Of a simulated track against the recorded one, as track_error() gives it, but for how the tracker was mounted.
+Eigen::VectorXd error_beside_mount(const Model& model, std::size_t run, const std::vector<Pose2>& predicted);
+
+/// The error of its start (along, across, heading) that explains a track's error best.
+Eigen::Vector3d best_start(const Model& model, std::size_t run, const Eigen::VectorXd& error);
+
 /// `error`: of a predicted track against the recorded one, as track_error() gives it.
 TrackMisfit aligned_misfit(const Model& model, std::size_t run, const Eigen::VectorXd& error);
 

@@ -1,8 +1,9 @@
 #include "gap/output/tracks_json.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "gap/evidence/track_misfit.h"
 
 namespace umbsim::gap {
 namespace {
@@ -13,16 +14,13 @@ constexpr std::size_t kPoses = 300;  // of a run, at most, go into the page
 
 double rounded(double value) { return std::round(value * 1e5) / 1e5; }
 
-// The prediction begun where it explains the recorded run best.
+// The prediction as the tracker would see it, begun where it explains the recorded run best.
 std::vector<Pose2> begun_right(const Model& model, std::size_t r, const std::vector<Pose2>& track) {
-  std::vector<Pose2> truth;
-  for (const TruthSample& t : model.recording().runs[r].truth) truth.push_back(t.X_WB);
-  const TrackFilter& filter = model.filter(r);
-  const auto products = filter.impulse_products(filter.whiten(track_error(track, truth)));
-  const Eigen::Vector3d start = products.with_itself[0].ldlt().solve(products.with_column[0]);
+  const Eigen::Vector3d start = best_start(model, r, error_beside_mount(model, r, track));
+  const Eigen::Vector3d mount = model.mount_error(r).head(3);
   const Pose2 motion = track[0] * Pose2{start[0], start[1], start[2]} * inverse(track[0]);
   std::vector<Pose2> result;
-  for (const Pose2& p : track) result.push_back(motion * p);
+  for (const Pose2& p : track) result.push_back(motion * p * Pose2{mount[0], mount[1], mount[2]});
   return result;
 }
 
