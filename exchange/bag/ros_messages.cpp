@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
 #include "core/error.h"
 #include "exchange/bag/files/unpacked_file.h"
@@ -131,7 +132,12 @@ void read_topic(const Bags& bags, const std::string& name, const std::vector<std
       readers.at(m.topic).read(m, values, ++number);
       const Receipt receipt{name, number, m.received};
       receipt.check("its time of receipt", double(m.received / 1'000'000'000));
-      take(values, receipt);
+      try {
+        take(values, receipt);
+      } catch (const std::out_of_range&) {  // by at()
+        throw InputError(fmt::format("topic {}: message {}: its definition is not that of a {}", name, number,
+                                     topics[m.topic].type));
+      }
     });
   }
 }
@@ -172,10 +178,13 @@ void read_poses(const Bags& bags, const std::string& topic, const std::function<
   const std::size_t first = p.child ? 4 : 3;
   read_topic(bags, topic, paths, p.prefix, [&](const MessageValues& v, const Receipt& receipt) {
     for (std::size_t i = 0; i < v.numbers[0].size(); ++i) {
-      StampedPose s{
-          receipt.stamp(v.numbers[0][i], v.numbers[1][i]), v.texts[2][i], p.child ? v.texts[3][i] : "", {}, {}};
-      for (std::size_t k = 0; k < 3; ++k) s.position[k] = v.numbers[first + k][i];
-      for (std::size_t k = 0; k < 4; ++k) s.quaternion[k] = v.numbers[first + 3 + k][i];
+      StampedPose s{receipt.stamp(v.numbers[0][i], v.numbers[1].at(i)),
+                    v.texts[2].at(i),
+                    p.child ? v.texts[3].at(i) : "",
+                    {},
+                    {}};
+      for (std::size_t k = 0; k < 3; ++k) s.position[k] = v.numbers[first + k].at(i);
+      for (std::size_t k = 0; k < 4; ++k) s.quaternion[k] = v.numbers[first + 3 + k].at(i);
       for (std::string* name : {&s.frame, &s.child}) {
         if (name->starts_with('/')) name->erase(0, 1);  // of ROS 1's first years
       }
