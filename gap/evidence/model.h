@@ -59,6 +59,9 @@ struct Fit {
   /// The effects that a robot can be driven with, at other numbers; `without`: but for those of one hypothesis.
   std::vector<Effect> driven_at(const Eigen::VectorXd& numbers, std::size_t without = std::size_t(-1)) const;
   std::string name() const;   ///< effects joined by "+", in alphabetical order
+  /// By how much log evidence the last effect is missed, without what goes with it: its own numbers' prior density over
+  /// their posterior one, where it is off (Dickey 1971).
+  double own_evidence() const;
   bool is_kinematic() const;  ///< all of its effects are
   bool is_local() const;      ///< one of them is at a place or a moment
 };

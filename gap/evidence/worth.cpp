@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -46,6 +47,18 @@ std::string Fit::name() const {
   for (const Hypothesis& f : hypotheses) names.insert(f.effect);
   if (names.empty()) return "none";
   return fmt::format("{}", fmt::join(names, "+"));
+}
+
+double Fit::own_evidence() const {
+  const Hypothesis& last = hypotheses.back();
+  const Eigen::Index all = Eigen::Index(last.parameters.size()), own = all - last.of_others;
+  const Eigen::Index at = p.size() - all;
+  const Eigen::MatrixXd S = covariance.block(at, at, own, own);
+  const Eigen::VectorXd m = p.segment(at, own);
+  const Eigen::LDLT<Eigen::MatrixXd> solver(S);
+  double log_det = solver.vectorD().array().log().sum();
+  for (Eigen::Index i = 0; i < own; ++i) log_det -= 2 * std::log(last.parameters[std::size_t(i)].prior_sd);
+  return 0.5 * (m.dot(solver.solve(m)) + log_det);
 }
 
 bool Fit::is_kinematic() const {

@@ -161,6 +161,7 @@ Hypothesis on_soft_tyres(Hypothesis hypothesis) {
   constexpr double kAcross = 0.01;
   hypothesis.parameters.push_back({"log tyre_creep.along", 0, 0.2, 1.5, -5, 1.6});
   hypothesis.parameters.push_back({"log tyre_creep.across", 0, 0.2, 1.5, -5, 3.9});
+  hypothesis.of_others = 2;
   hypothesis.from_zero = false;
   hypothesis.parameters.front().start = hypothesis.parameters.front().step * 2;
   hypothesis.with = [own](const Eigen::VectorXd& p) {
@@ -179,6 +180,7 @@ Hypothesis on_motors_that_give_way(Hypothesis hypothesis, double motor_inertia_k
   hypothesis.variant += ", motors that give way";
   const Eigen::Index own = Eigen::Index(hypothesis.parameters.size());
   hypothesis.parameters.push_back({"log motor_response.droop", 0, 0.2, 1, -1.5, 4});
+  hypothesis.of_others = 1;
   const EffectInfo& motor = find_effect("motor_response");
   const std::size_t droop = index_of(motor, "droop_radps_per_nm");
   const double most = motor.parameters[droop].bounds.max;
@@ -200,6 +202,7 @@ Hypothesis on_creeping_tyres(Hypothesis hypothesis) {
   const Eigen::Index own = Eigen::Index(hypothesis.parameters.size());
   constexpr double kTypical = 0.01;  // slip per traction ratio, typical of hard tyres
   hypothesis.parameters.push_back({"log tyre_creep", 0, 0.2, 1, -3, 2});
+  hypothesis.of_others = 1;
   hypothesis.values = [values = hypothesis.values, own](const Eigen::VectorXd& p) {
     return values(p.head(own) * std::exp(-p[own]));
   };

@@ -71,6 +71,8 @@ std::optional<Fit> ForwardSearch::tried(const Fit& base, const Screen::Candidate
     fit.size = displacement_m(fit.predicted.tracks, base.predicted.tracks) / model_.noise_floor_m();
     fit.seen = std::sqrt(seen_between(model_, base, fit) / model_.rows());
     if (contradicted(model_, base, fit)) return std::nullopt;
+    // What goes with an effect is not credited to it: soft tyres explain much, whatever rolls on them.
+    if (c.hypothesis.of_others > 0 && fit.own_evidence() < thresholds_.detect) return std::nullopt;
     if (large_enough(base, fit)) return fit;
     keep_doubtful(base, addition_needed(model_, base, none_, thresholds_), std::move(fit));
   } catch (const RunError&) {

@@ -1,6 +1,7 @@
 // Fits of effects in the simulator, where it cannot be driven everywhere.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -42,6 +43,25 @@ TEST(Fit, EndsWhereTheRobotTipsOverOnEitherSide) {
             << *tipped << " times\n";
   EXPECT_GT(*tipped, 0) << "the test asks for nothing";
   EXPECT_NEAR(fit.p[0], open.p[0], sd);
+}
+
+// Wheels that point straight ahead scrub on no tyre: what soft tyres explain is not theirs.
+TEST(Fit, CreditsAnEffectWithItsOwnNumbersAlone) {
+  const Effect soft = effect("tyre_creep", {{"along", 0.03}, {"across", 0.03}});
+  const Effect toe = effect("wheel_misalignment", {{"left_toe_rad", 0.006}});
+  const auto own_evidence = [](const std::vector<Effect>& effects, std::uint64_t seed) {
+    const Subject s(campaign(effects, seed));
+    const std::vector<Hypothesis> all = plain_hypotheses(0.02, 2000);
+    const auto left = std::find_if(all.begin(), all.end(), [](const Hypothesis& h) {
+      return h.effect == "wheel_misalignment" && h.variant == "left, soft tyres";
+    });
+    const Fit fit = s.model.fit({*left}, Eigen::Vector3d(0.004, std::log(0.3), std::log(3)));
+    std::cout << "toe " << 1e3 * fit.p[0] << " mrad: " << fit.own_evidence() << " of "
+              << fit.log_evidence - s.model.none().log_evidence << "\n";
+    return fit.own_evidence();
+  };
+  EXPECT_LT(own_evidence({soft}, 72), Thresholds{}.detect);
+  EXPECT_GT(own_evidence({soft, toe}, 73), Thresholds{}.detect);
 }
 
 }  // namespace
