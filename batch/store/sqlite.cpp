@@ -18,11 +18,10 @@ std::string quoted(const std::string& text, char mark) {
   return out + mark;
 }
 
-// What SQLite says of a file's bytes, its schema among them. All other codes speak of the machine.
-bool is_of_content(int code) {
-  return code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR || code == SQLITE_TOOBIG ||
-         code == SQLITE_MISMATCH;
-}
+bool is_damage(int code) { return code == SQLITE_CORRUPT || code == SQLITE_NOTADB; }
+
+// What SQLite may say of a schema and values that are not ours. After a failed write it may mean the machine.
+bool is_of_content(int code) { return code == SQLITE_ERROR || code == SQLITE_TOOBIG || code == SQLITE_MISMATCH; }
 
 }  // namespace
 
@@ -43,9 +42,9 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file.st
   if (code != SQLITE_OK) fail("cannot be read");
 }
 
-void Database::fail(const std::string& doing) const {
+void Database::fail(const std::string& doing, bool reading) const {
   const int code = handle_ ? sqlite3_errcode(handle_.get()) & 0xff : SQLITE_NOMEM;
-  if (is_of_content(code)) {
+  if (is_damage(code) || (reading && is_of_content(code))) {
     throw InputError(fmt::format("{}: is damaged or cut off: SQLite says: {}", file_, sqlite3_errmsg(handle_.get())));
   }
   throw RunError(fmt::format("{}: {}: {}", file_, doing, handle_ ? sqlite3_errmsg(handle_.get()) : "out of memory"));
@@ -61,7 +60,7 @@ void Database::run(const std::string& sql) {
     sqlite3_sleep(kRetry_ms);
     code = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);
   }
-  if (code != SQLITE_OK) fail("SQLite failed");
+  if (code != SQLITE_OK) fail("SQLite failed", false);
 }
 
 Statement Database::prepare(const std::string& sql) {

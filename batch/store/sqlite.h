@@ -26,7 +26,8 @@ class Database {
   /// The first column of the first row; nothing if there is no row.
   Cell value(const std::string& sql);
   const std::string& file() const { return file_; }
-  [[noreturn]] void fail(const std::string& doing) const;
+  /// Throws InputError where the file's content is at fault, else RunError. `reading`: nothing was to be written.
+  [[noreturn]] void fail(const std::string& doing, bool reading = true) const;
 
  private:
   struct Close {
