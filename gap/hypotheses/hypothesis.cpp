@@ -174,9 +174,8 @@ Hypothesis on_soft_tyres(Hypothesis hypothesis) {
 
 constexpr double kGivesWay_s = 0.01;  // typical time constant of a speed control in proportion
 
-// A slope, or a caster's drag, pulls on motors, which turn faster downhill than they are told if they give way: as much
-// as they lag when the robot speeds up. Counts tell slope times droop, in which they are linear, and the lag tells the
-// droop.
+// A slope pulls on motors, which turn faster downhill than they are told if they give way: as much as they lag when the
+// robot speeds up. Counts tell slope times droop, in which they are linear, and the lag tells the droop.
 Hypothesis on_motors_that_give_way(Hypothesis hypothesis, double motor_inertia_kgm2) {
   hypothesis.variant += ", motors that give way";
   const Eigen::Index own = Eigen::Index(hypothesis.parameters.size());
@@ -268,8 +267,6 @@ std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revol
                         {{"trail_m", 0.03}, {"friction_nm", 0.1}}),
                  1.5),
       direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.04)}),
-      on_motors_that_give_way(direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.04)}),
-                              motor_inertia_kgm2),
       drag_beside_middle("left of it", 0.05),
       drag_beside_middle("right of it", -0.05),
       from_start(direct("slippery_floor", "friction", {{"friction", 0, 2e-4, 0.2, 0.01, 0.8}}), 0.06),
