@@ -126,6 +126,8 @@ void Store::find_provenance(const Provenance& provenance) {
     insert.bind(int(i), provenance[i].second);
     find.bind(int(i), provenance[i].second);
   }
+  knows_program_ = find.step();
+  find.reset();
   insert.run();
   if (find.step()) provenance_ = find.integer(0);
   find.reset();

@@ -68,6 +68,8 @@ class Store {
 
   const StoreLayout& layout() const { return layout_; }
   const std::string& file() const { return database_->file(); }
+  /// Whether this very program (its provenance) opened the store before.
+  bool knows_program() const { return knows_program_; }
   bool has(std::int64_t number);
   /// Numbers of the points of a shard that are not there yet, in order.
   std::vector<std::int64_t> missing(const Shard& shard);
@@ -103,6 +105,7 @@ class Store {
   std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
   StoreLayout layout_;
   std::int64_t provenance_ = 0;
+  bool knows_program_ = false;
   std::optional<Statement> has_, put_point_, put_figures_, put_run_, put_warning_;
 };
 

@@ -133,19 +133,16 @@ void YamlValue::fail(const std::string& what) const {
 
 YamlMap::YamlMap(const YamlValue& value) : value_(value) {
   if (!value.is_map()) value.fail("expected a map (key: value), got " + describe(value.node_));
+  for (const auto& entry : value.node_) nodes_.emplace(entry.first.Scalar(), entry.second);
 }
 
-bool YamlMap::has(const std::string& key) const {
-  return std::any_of(value_.node_.begin(), value_.node_.end(),
-                     [&](const auto& entry) { return entry.first.Scalar() == key; });
-}
+bool YamlMap::has(const std::string& key) const { return nodes_.count(key) > 0; }
 
 std::optional<YamlValue> YamlMap::find(const std::string& key) {
   asked_.insert(key);
-  for (const auto& entry : value_.node_) {
-    if (entry.first.Scalar() == key) return YamlValue(entry.second, value_.file_, join_path(value_.path_, key));
-  }
-  return std::nullopt;
+  const auto found = nodes_.find(key);
+  if (found == nodes_.end()) return std::nullopt;
+  return YamlValue(found->second, value_.file_, join_path(value_.path_, key));
 }
 
 YamlValue YamlMap::at(const std::string& key) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -85,6 +86,7 @@ class YamlMap {
 
  private:
   YamlValue value_;
+  std::map<std::string, YAML::Node> nodes_;  // by key, the first of each: yaml-cpp goes through all for every question
   std::set<std::string> asked_;
 };
 

@@ -106,10 +106,20 @@ void begin_anew(const SweepOptions& options) {
   for (const char* name : {"report.html", "sweep.json", "provenance.json"}) fs::remove(options.folder / name);
 }
 
+// Whether the scenario takes these points. Millions of them take minutes.
+void check(const Sweep& sweep, const std::vector<std::int64_t>& numbers) {
+  ProgressLog progress(sweep.name + ": checked", 0, std::int64_t(numbers.size()), ProgressLog::on_standard_error());
+  check_points(sweep, numbers, [&] { progress.step(); });
+}
+
 std::vector<std::int64_t> all_of(const Sweep& sweep, const Shard& shard) {
   std::vector<std::int64_t> numbers;
   for (std::int64_t i = shard.index; i < sweep.points; i += shard.count) numbers.push_back(i);
   return numbers;
+}
+
+std::vector<std::int64_t> first_of(const std::vector<std::int64_t>& numbers) {
+  return {numbers.begin(), numbers.begin() + std::ptrdiff_t(!numbers.empty())};
 }
 
 int drive_missing(const Sweep& sweep, Store& store, const SweepOptions& options,
@@ -156,7 +166,7 @@ int run_sweep(const Sweep& sweep, const SweepOptions& options) {
   check_folder(options.folder);
   const fs::path file = store_file(options.folder, options.shard);
   const bool anew = options.force || !fs::exists(file);
-  if (anew) check_points(sweep, all_of(sweep, options.shard));
+  if (anew) check(sweep, all_of(sweep, options.shard));
   if (options.force) begin_anew(options);
   make_folder(options.folder);
   // A shard's store may lie on a network file system.
@@ -164,7 +174,8 @@ int run_sweep(const Sweep& sweep, const SweepOptions& options) {
   Store store = Store::open_for(file, layout_of(sweep), provenance(), journal);
   if (options.retry_failed) store.forget_failed();
   const std::vector<std::int64_t> open = store.missing(options.shard);
-  if (!anew) check_points(sweep, open);
+  // This program has checked them all when it began; its robot's file may have gone since.
+  if (!anew) check(sweep, store.knows_program() ? first_of(open) : open);
   store.note_start(this_start(options.shard));
   const int signal = drive_missing(sweep, store, options, open);
   if (signal == 0) store.settle();

@@ -104,7 +104,7 @@ Scenario scenario_of(const Sweep& sweep, const SweepPoint& point) {
   return s;
 }
 
-void check_points(const Sweep& sweep, const std::vector<std::int64_t>& numbers) {
+void check_points(const Sweep& sweep, const std::vector<std::int64_t>& numbers, const std::function<void()>& checked) {
   std::set<std::string> robots;
   for (const std::int64_t number : numbers) {
     const SweepPoint point = sweep_point(sweep, number);
@@ -115,6 +115,7 @@ void check_points(const Sweep& sweep, const std::vector<std::int64_t>& numbers) 
     } catch (const InputError& e) {
       blame(sweep, point, e);
     }
+    if (checked) checked();
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -66,6 +67,8 @@ std::string label(const Sweep& sweep, const SweepPoint& point);
 Scenario scenario_of(const Sweep& sweep, const SweepPoint& point);
 
 /// Throws InputError that names file, line, key, value and bound if the scenario does not take one of these points.
-void check_points(const Sweep& sweep, const std::vector<std::int64_t>& numbers);
+/// `checked` is called after each.
+void check_points(const Sweep& sweep, const std::vector<std::int64_t>& numbers,
+                  const std::function<void()>& checked = {});
 
 }  // namespace umbsim
