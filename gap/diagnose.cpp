@@ -71,8 +71,7 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   fill_set(context, found, left, best, d);
   say_where(model, none, best, d);
   d.simulated_s = model.simulated_s();
-  if (d.closure.known && d.closure.after_mm > d.closure.most_noise_mm)
-    d.effective = effective_twin(model, screen, none, d.twin, d.closure);
+  d.effective = effective_twin(model, screen, excluded, none, d.twin, d.closure);
   return d;
 }
 

@@ -62,11 +62,10 @@ Fit driven_part(const Model& model, Fit twin) {
   return twin;
 }
 
-}  // namespace
-
-std::optional<EffectiveTwin> effective_twin(const Model& model, const Screen& screen, const Fit& none, const Fit& twin,
-                                            const Closure& closure) {
+EffectiveTwin with_dimensions(const Model& model, const Screen& screen, const Fit& none, const Fit& twin,
+                              const Closure& closure) {
   const bool takes_nothing = twin.hypotheses.empty() || closure.after_mm == closure.before_mm;
+  if (closure.after_mm <= closure.most_noise_mm) return {{}, driven_part(model, twin), closure};
   EffectiveTwin best = calibrated(model, screen, takes_nothing ? none : driven_part(model, twin), closure);
   if (!takes_nothing) {
     Closure nothing = closure;
@@ -74,6 +73,41 @@ std::optional<EffectiveTwin> effective_twin(const Model& model, const Screen& sc
     EffectiveTwin alone = calibrated(model, screen, none, nothing);
     if (pays(best.closure.after_mm, alone.closure.after_mm, closure.floor_mm)) best = std::move(alone);
   }
+  return best;
+}
+
+// Neither effect of the scrub is in the twin already, or excluded.
+bool may_scrub(const Fit& twin, const std::set<std::string>& excluded) {
+  const Hypothesis scrub = scrub_hypothesis();
+  std::vector<Effect> there = twin.effects();
+  for (const Effect& e : effects_of(scrub, start_of(scrub))) {
+    const auto is_it = [&](const Effect& other) { return other.info == e.info; };
+    if (excluded.count(e.info->name) > 0 || std::any_of(there.begin(), there.end(), is_it)) return false;
+  }
+  return !twin.hypotheses.empty();
+}
+
+void add_scrub(const Model& model, EffectiveTwin& twin) {
+  std::vector<Hypothesis> hypotheses = twin.fit.hypotheses;
+  hypotheses.push_back(scrub_hypothesis());
+  Eigen::VectorXd start(twin.fit.p.size() + 1);
+  start << twin.fit.p, hypotheses.back().parameters.front().step;
+  Fit fit = model.fit(hypotheses, start);
+  const Closure closure = held_out_closure(model, fit);
+  if (!closure.known || closure.after_mm >= twin.closure.after_mm) return;
+  twin.dimensions.push_back(hypotheses.back().effect);
+  twin.fit = std::move(fit);
+  twin.closure = closure;
+}
+
+}  // namespace
+
+std::optional<EffectiveTwin> effective_twin(const Model& model, const Screen& screen,
+                                            const std::set<std::string>& excluded, const Fit& none, const Fit& twin,
+                                            const Closure& closure) {
+  if (!closure.known) return std::nullopt;
+  EffectiveTwin best = with_dimensions(model, screen, none, twin, closure);
+  if (model.tracker_is_free() && may_scrub(best.fit, excluded)) add_scrub(model, best);
   if (best.dimensions.empty()) return std::nullopt;
   return best;
 }

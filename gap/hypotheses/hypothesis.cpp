@@ -216,6 +216,18 @@ Hypothesis on_creeping_tyres(Hypothesis hypothesis) {
 
 }  // namespace
 
+Hypothesis scrub_hypothesis() {
+  constexpr double kDrags = 0.15;  // friction of a ball in its socket, or of a swivel
+  constexpr double kCreep = 0.05;  // of rubber along its way: a stiffness of twenty times the load
+  Hypothesis hypothesis = direct("caster_drag", "on creeping tyres", {positive("coefficient", 0.05, kDrags)});
+  hypothesis.with = [](const Eigen::VectorXd&) {
+    Effect creep = neutral_effect(find_effect("tyre_creep"));
+    creep.values.numbers = {kCreep, 0};
+    return std::vector<Effect>{creep};
+  };
+  return hypothesis;
+}
+
 std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revolution, double wheel_width_m,
                                          double motor_inertia_kgm2) {
   std::vector<Hypothesis> all = {

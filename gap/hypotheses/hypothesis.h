@@ -57,6 +57,10 @@ Eigen::VectorXd prior_sd_of(const std::vector<Hypothesis>& hypotheses);
 std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revolution, double wheel_width_m = 0,
                                          double motor_inertia_kgm2 = 0.1);
 
+/// A caster that drags against turning, on tyres that creep along their way: turns on the spot and arcs come out small
+/// by shares of their own (docs/calibration.md, scrub). How much it drags is free, about zero.
+Hypothesis scrub_hypothesis();
+
 /// Hypotheses of local effects, at a place of the floor or a moment of one run.
 /// `heading_rad`: of the robot as it passes; the cable lies across.
 Hypothesis bump_hypothesis(double x_m, double y_m, double heading_rad);

@@ -179,12 +179,33 @@ std::string worth(const Diagnosis& d) {
                             left(c.before_mm, c.floor_mm));
 }
 
-// Radii and a wheelbase that are no cause and foretell what the causes leave.
+// What goes with effective dimensions: creep of the tyres that scrub.
+Texts goes_with(const EffectiveTwin& twin) {
+  Texts texts;
+  Eigen::Index first = 0;
+  for (const Hypothesis& h : twin.fit.hypotheses) {
+    const auto numbers = Eigen::Index(h.parameters.size());
+    const bool dimension = std::find(twin.dimensions.begin(), twin.dimensions.end(), h.effect) != twin.dimensions.end();
+    for (const Effect& e : dimension && h.with ? h.with(twin.fit.p.segment(first, numbers)) : std::vector<Effect>{}) {
+      std::vector<FoundParameter> known;
+      for (std::size_t i = 0; i < e.values.numbers.size(); ++i) {
+        const double value = e.values.numbers[i];
+        known.push_back({e.info->parameters[i].name, value, value, value});
+      }
+      texts.push_back(found_sentence(*e.info, known));
+    }
+    first += numbers;
+  }
+  return texts;
+}
+
+// Radii and a wheelbase, or a scrub, that are no cause and foretell what the causes leave.
 std::string effective(const Diagnosis& d) {
   if (!d.effective) return "";
   Texts dimensions;
   for (const ParameterEstimate& e : effective_dimensions(d))
     dimensions.push_back(found_sentence(find_effect(e.effect), {found(e)}));
+  for (const std::string& text : goes_with(*d.effective)) dimensions.push_back(text);
   const auto& [names, fit, closure] = *d.effective;
   const bool instead = fit.hypotheses.size() == names.size() && is_effect(d.causes.front().name);
   return fmt::format(

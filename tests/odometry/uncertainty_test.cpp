@@ -35,7 +35,7 @@ TEST(ArcJacobians, AreTheDerivativesOfTheArc) {
                                     {0.1, 0.1 + 0.0069}}) {
     const ArcJacobians j = arc_jacobians(from, left, right, kBase_m);
     for (int i = 0; i < 5; ++i) {
-      const auto shifted = [&](double by) {
+      const auto shifted = [&, left = left, right = right](double by) {  // Clang 14 captures no bindings
         const double d[5] = {i == 0 ? by : 0, i == 1 ? by : 0, i == 2 ? by : 0, i == 3 ? by : 0, i == 4 ? by : 0};
         const Pose2 start{from.x_m + d[0], from.y_m + d[1], from.theta_rad + d[2]};
         return vector(moved(start, left + d[3], right + d[4]));

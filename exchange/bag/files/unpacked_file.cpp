@@ -50,8 +50,8 @@ void write_all(int handle, const char* data, std::size_t size, const std::string
 }  // namespace
 
 bool is_zstd(const void* data, std::size_t size) {
-  constexpr char kMagic[] = "\x28\xb5\x2f\xfd";
-  return size >= 4 && std::memcmp(data, kMagic, 4) == 0;
+  constexpr char kZstd[] = "\x28\xb5\x2f\xfd";
+  return size >= 4 && std::memcmp(data, kZstd, 4) == 0;
 }
 
 std::vector<std::uint8_t> unpacked_message(const std::uint8_t* data, std::size_t size) {
