@@ -184,9 +184,11 @@ Texts goes_with(const EffectiveTwin& twin) {
   Texts texts;
   Eigen::Index first = 0;
   for (const Hypothesis& h : twin.fit.hypotheses) {
-    const auto numbers = Eigen::Index(h.parameters.size());
+    const Eigen::VectorXd p = twin.fit.p.segment(first, Eigen::Index(h.parameters.size()));
+    first += p.size();
     const bool dimension = std::find(twin.dimensions.begin(), twin.dimensions.end(), h.effect) != twin.dimensions.end();
-    for (const Effect& e : dimension && h.with ? h.with(twin.fit.p.segment(first, numbers)) : std::vector<Effect>{}) {
+    if (!dimension || !h.with) continue;
+    for (const Effect& e : h.with(p)) {
       std::vector<FoundParameter> known;
       for (std::size_t i = 0; i < e.values.numbers.size(); ++i) {
         const double value = e.values.numbers[i];
@@ -194,7 +196,6 @@ Texts goes_with(const EffectiveTwin& twin) {
       }
       texts.push_back(found_sentence(*e.info, known));
     }
-    first += numbers;
   }
   return texts;
 }
