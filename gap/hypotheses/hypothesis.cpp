@@ -218,7 +218,7 @@ Hypothesis on_creeping_tyres(Hypothesis hypothesis) {
 
 Hypothesis scrub_hypothesis() {
   constexpr double kFriction = 0.15;  // friction of a ball in its socket, or of a swivel
-  constexpr double kRubber = 0.05;  // of rubber along its way: a stiffness of twenty times the load
+  constexpr double kRubber = 0.05;    // of rubber along its way: a stiffness of twenty times the load
   Hypothesis hypothesis = direct("caster_drag", "on creeping tyres", {positive("coefficient", 0.05, kFriction)});
   hypothesis.with = [](const Eigen::VectorXd&) {
     Effect creep = neutral_effect(find_effect("tyre_creep"));
