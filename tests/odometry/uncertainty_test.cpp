@@ -13,6 +13,7 @@ namespace umbsim {
 namespace {
 
 constexpr double kBase_m = 0.34;
+constexpr double kRounding = 1e-12;
 
 Pose2 moved(const Pose2& from, double left_m, double right_m) {
   return from * arc((left_m + right_m) / 2, (right_m - left_m) / kBase_m);
@@ -72,7 +73,7 @@ TEST(Covariance, OfAStraightIsTheClosedForm) {
   EXPECT_NEAR(P(2, 2) / heading, 1, kOfSteps);
   EXPECT_NEAR(P(1, 1) / (heading * s * s / 3), 1, kOfSteps);
   EXPECT_NEAR(P(1, 2) / (heading * s / 2), 1, kOfSteps);
-  EXPECT_NEAR(P(0, 1), 0, kRoundOff);
+  EXPECT_NEAR(P(0, 1), 0, kRounding);
   EXPECT_GT(P(1, 1), 100 * P(0, 0));
 }
 
@@ -87,29 +88,29 @@ TEST(Covariance, OfATurnInPlaceIsTheClosedForm) {
 
 TEST(Covariance, OfMirroredWheelsIsMirrored) {
   const PoseCovariance a = driven(1.0, 1.4, {0.0004, 0.0007}, 100), b = driven(1.4, 1.0, {0.0007, 0.0004}, 100);
-  EXPECT_NEAR(a(0, 0), b(0, 0), kRoundOff);
-  EXPECT_NEAR(a(1, 1), b(1, 1), kRoundOff);
-  EXPECT_NEAR(a(0, 1), -b(0, 1), kRoundOff);
-  EXPECT_NEAR(a(0, 2), -b(0, 2), kRoundOff);
-  EXPECT_NEAR(a(1, 2), b(1, 2), kRoundOff);
+  EXPECT_NEAR(a(0, 0), b(0, 0), kRounding);
+  EXPECT_NEAR(a(1, 1), b(1, 1), kRounding);
+  EXPECT_NEAR(a(0, 1), -b(0, 1), kRounding);
+  EXPECT_NEAR(a(0, 2), -b(0, 2), kRounding);
+  EXPECT_NEAR(a(1, 2), b(1, 2), kRounding);
 }
 
 TEST(Covariance, GrowsBackwardsAsForwards) {
   const PoseCovariance P = driven(-2, -2, {0.0005, 0.0005}, 10), Q = driven(2, 2, {0.0005, 0.0005}, 10);
-  EXPECT_NEAR(P(0, 0), Q(0, 0), kRoundOff);
-  EXPECT_NEAR(P(2, 2), Q(2, 2), kRoundOff);
+  EXPECT_NEAR(P(0, 0), Q(0, 0), kRounding);
+  EXPECT_NEAR(P(2, 2), Q(2, 2), kRounding);
 }
 
 // Independent errors: every coordinate is the mean weighted by the inverse variances.
 TEST(AbsoluteFix, OfIndependentErrorsIsTheWeightedMean) {
   UncertainPose before{{1, 2, 0.5}, Eigen::Vector3d(4e-4, 1e-4, 1e-4).asDiagonal()};
   const UncertainPose after = absolute_fix(before, {1.01, 1.99, 0.52}, {0.01, 0.02});
-  EXPECT_NEAR(after.X_OB.x_m, 1 + 0.01 * 4 / 5, kRoundOff);
-  EXPECT_NEAR(after.X_OB.y_m, 2 - 0.01 / 2, kRoundOff);
-  EXPECT_NEAR(after.X_OB.theta_rad, 0.5 + 0.02 / 5, kRoundOff);
-  EXPECT_NEAR(after.covariance(0, 0), 4e-4 * 1e-4 / 5e-4, kRoundOff);
-  EXPECT_NEAR(after.covariance(1, 1), 0.5e-4, kRoundOff);
-  EXPECT_NEAR(after.covariance(2, 2), 1e-4 * 4e-4 / 5e-4, kRoundOff);
+  EXPECT_NEAR(after.X_OB.x_m, 1 + 0.01 * 4 / 5, kRounding);
+  EXPECT_NEAR(after.X_OB.y_m, 2 - 0.01 / 2, kRounding);
+  EXPECT_NEAR(after.X_OB.theta_rad, 0.5 + 0.02 / 5, kRounding);
+  EXPECT_NEAR(after.covariance(0, 0), 4e-4 * 1e-4 / 5e-4, kRounding);
+  EXPECT_NEAR(after.covariance(1, 1), 0.5e-4, kRounding);
+  EXPECT_NEAR(after.covariance(2, 2), 1e-4 * 4e-4 / 5e-4, kRounding);
 }
 
 // In general the information adds up: P+^-1 = P^-1 + R^-1.
@@ -130,7 +131,7 @@ TEST(AbsoluteFix, AddsItsInformation) {
 TEST(AbsoluteFix, TakesTheHeadingToTheNearestTurn) {
   const UncertainPose before{{0, 0, -2 * M_PI + 0.1}, Eigen::Matrix3d::Identity()};
   const UncertainPose after = absolute_fix(before, {0, 0, 0.1}, {0.1, 0.1});
-  EXPECT_NEAR(after.X_OB.theta_rad, -2 * M_PI + 0.1, kRoundOff);
+  EXPECT_NEAR(after.X_OB.theta_rad, -2 * M_PI + 0.1, kRounding);
 }
 
 TEST(Ellipse95, HoldsNormalPositions95TimesInAHundred) {
@@ -141,9 +142,9 @@ TEST(Ellipse95, HoldsNormalPositions95TimesInAHundred) {
   P(1, 1) = s * s * a * a + c * c * b * b;
   P(0, 1) = P(1, 0) = c * s * (a * a - b * b);
   const Ellipse e = ellipse_95(P);
-  EXPECT_NEAR(e.a_m, a * std::sqrt(-2 * std::log(0.05)), kRoundOff);
-  EXPECT_NEAR(e.b_m, b * std::sqrt(-2 * std::log(0.05)), kRoundOff);
-  EXPECT_NEAR(e.angle_rad, 0.4, kRoundOff);
+  EXPECT_NEAR(e.a_m, a * std::sqrt(-2 * std::log(0.05)), kRounding);
+  EXPECT_NEAR(e.b_m, b * std::sqrt(-2 * std::log(0.05)), kRounding);
+  EXPECT_NEAR(e.angle_rad, 0.4, kRounding);
   constexpr int kDraws = 40000;
   int inside = 0;
   for (int i = 0; i < kDraws; ++i) {
