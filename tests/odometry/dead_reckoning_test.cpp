@@ -144,5 +144,48 @@ TEST(Encoder, TicksPerRevolutionMayBeFractional) {
   EXPECT_EQ(ticks(spec, 2 * M_PI * 10), 27968);
 }
 
+// Creep against turning, by hand: a share of all that a wheel rolls, forwards and backwards, to either side.
+TEST(OverFloor, TakesItsShareOfTurnsAndArcs) {
+  constexpr double kScrub = 0.01, kHardly = 0.06;
+  const auto taken = [&](double left_m, double right_m) {
+    OdometryParameters p = kLabmate;
+    p.scrub = kScrub;
+    const RolledWays over = over_floor(p, {left_m, right_m});
+    return std::pair{over.left_m - left_m, right_m - over.right_m};
+  };
+  const double on_the_spot = kScrub * 2 / std::hypot(2, kHardly);  // the bend of a turn in place is 2
+  for (const double way_m : {0.3, -0.3}) {
+    const auto [left, right] = taken(-way_m, way_m);
+    const double share = way_m > 0 ? on_the_spot : -on_the_spot;
+    EXPECT_NEAR(left, share * 0.3, kRoundOff);
+    EXPECT_NEAR(right, share * 0.3, kRoundOff);
+  }
+  for (const double bend : {0.02, 0.06, 0.4, -0.4}) {
+    for (const double way_m : {2.0, -2.0}) {
+      const double left_m = way_m - bend * std::abs(way_m) / 2, right_m = way_m + bend * std::abs(way_m) / 2;
+      const double share = kScrub * bend / std::hypot(bend, kHardly);
+      const auto [left, right] = taken(left_m, right_m);
+      EXPECT_NEAR(left, share * std::abs(left_m), kRoundOff) << bend;
+      EXPECT_NEAR(right, share * std::abs(right_m), kRoundOff) << bend;
+    }
+  }
+  EXPECT_EQ(taken(1.5, 1.5), (std::pair{0.0, 0.0})) << "straight ahead";
+  EXPECT_EQ(taken(0, 0), (std::pair{0.0, 0.0})) << "standing";
+  const RolledWays without = over_floor(kLabmate, {1, 2});
+  EXPECT_EQ(without.left_m, 1);
+  EXPECT_EQ(without.right_m, 2);
+}
+
+// An arc of radius R is small by scrub 2R/b.
+TEST(OverFloor, MakesArcsSmallByTheirRadius) {
+  constexpr double kScrub = 0.001, kRadius_m = 0.5;
+  OdometryParameters p = kLabmate;
+  p.scrub = kScrub;
+  const double half_m = p.wheelbase_m / 2;
+  const RolledWays over = over_floor(p, {kRadius_m - half_m, kRadius_m + half_m});  // one radian
+  EXPECT_NEAR(1 - (over.right_m - over.left_m) / p.wheelbase_m, kScrub * kRadius_m / half_m,
+              0.005 * kScrub * kRadius_m / half_m);
+}
+
 }  // namespace
 }  // namespace umbsim

@@ -33,7 +33,9 @@ TEST(ArcJacobians, AreTheDerivativesOfTheArc) {
                                     {-0.4, -0.1},
                                     {0.2, 2.5},
                                     {0.1, 0.1 + 0.0067},
-                                    {0.1, 0.1 + 0.0069}}) {
+                                    {0.1, 0.1 + 0.0069},
+                                    {0.1, 0.1 - 0.0067},
+                                    {0.5, 0.0}}) {
     const ArcJacobians j = arc_jacobians(from, left, right, kBase_m);
     for (int i = 0; i < 5; ++i) {
       const auto shifted = [&, left = left, right = right](double by) {  // Clang 14 captures no bindings
@@ -48,6 +50,19 @@ TEST(ArcJacobians, AreTheDerivativesOfTheArc) {
   }
   std::cout << "Jacobians and central differences differ by " << worst << "\n";
   EXPECT_LT(worst, kCentral);
+}
+
+// A long way that hardly turns shows what the series of the arc's bend leaves out.
+TEST(ArcJacobians, OfLongWaysThatHardlyTurn) {
+  constexpr double kStep = 1e-4, kWay_m = 1e3;
+  constexpr double kDifference = 2e-5;  // a way of kilometres has 1e-13 m of round-off, and bends by step^2
+  for (const double turn_rad : {0.019, -0.019, 0.021}) {  // the series ends at 0.02
+    const double left_m = kWay_m - turn_rad * kBase_m / 2, right_m = kWay_m + turn_rad * kBase_m / 2;
+    const ArcJacobians j = arc_jacobians({}, left_m, right_m, kBase_m);
+    const Eigen::Vector3d difference =
+        (vector(moved({}, left_m, right_m + kStep)) - vector(moved({}, left_m, right_m - kStep))) / (2 * kStep);
+    EXPECT_LT((difference - j.by_wheels.col(1)).cwiseAbs().maxCoeff(), kDifference) << turn_rad;
+  }
 }
 
 PoseCovariance driven(double left_m, double right_m, const PathNoise& noise, int steps) {
@@ -152,6 +167,33 @@ TEST(Ellipse95, HoldsNormalPositions95TimesInAHundred) {
     inside += inside_95({{1, 2, 0}, P}, {1 + c * u - s * v, 2 + s * u + c * v, 0});
   }
   EXPECT_NEAR(double(inside) / kDraws, 0.95, 0.0044);  // four standard errors
+}
+
+// The covariance that counts and fixes leave, against that of the same arcs one by one.
+TEST(UncertainReckoning, CarriesTheCovarianceOfItsArcs) {
+  OdometryParameters parameters{0.075, 0.0751, kBase_m, 2000};
+  const PathNoise noise{0.001, 0.002};
+  for (const double scrub : {0.0, 0.01}) {
+    parameters.scrub = scrub;
+    UncertainReckoning reckoning(parameters, noise);
+    PoseCovariance P = PoseCovariance::Zero();
+    std::int64_t left = 0, right = 0;
+    for (int i = 1; i <= 50; ++i) {
+      const std::int64_t more_left = 100 + i % 5, more_right = i % 10 < 7 ? 130 : -90;
+      const auto [left_m, right_m] = over_floor(parameters, {double(more_left) * parameters.left_metres_per_tick(),
+                                                             double(more_right) * parameters.right_metres_per_tick()});
+      P = after_arc(P, arc_jacobians(reckoning.pose(), left_m, right_m, kBase_m), left_m, right_m, noise);
+      reckoning.update(left += more_left, right += more_right);
+      EXPECT_LT((reckoning.estimate().covariance - P).norm(), kRounding * P.norm());
+      if (i % 20 != 0) continue;
+      const FixNoise fix{0.003, 0.002};
+      const UncertainPose expected = absolute_fix({reckoning.pose(), P}, {0.1, 0.2, 0.3}, fix);
+      reckoning.fix({0.1, 0.2, 0.3}, fix);
+      P = expected.covariance;
+      EXPECT_LT((reckoning.estimate().covariance - P).norm(), kRounding * P.norm());
+      EXPECT_EQ(reckoning.pose().x_m, expected.X_OB.x_m);
+    }
+  }
 }
 
 TEST(UncertainReckoning, DoesNotChangeThePose) {
