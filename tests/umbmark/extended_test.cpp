@@ -84,5 +84,14 @@ TEST(ExtendedUmbmark, BumpsMayBeListedInsteadOfCounted) {
   EXPECT_NEAR(measure(recording).per_bump_heading_error_rad, 0.1 / 4, kTicks);
 }
 
+TEST(ExtendedUmbmark, OfAnUnknownNumberOfBumpsThereIsNoMean) {
+  const Recording recording = with_bumps({}, {0.1}, 10);
+  const Umbmark plain = umbmark(recording, nominal_odometry());
+  const Cluster cw = cluster(return_errors(recording, nominal_odometry(), "cw", true));
+  const Cluster ccw = cluster(return_errors(recording, nominal_odometry(), "ccw", true));
+  EXPECT_EQ(extended_umbmark(cw, ccw, plain, 0).per_bump_heading_error_rad, 0);
+  EXPECT_NEAR(extended_umbmark(cw, ccw, plain, 1).per_bump_heading_error_rad, 0.1, kTicks);
+}
+
 }  // namespace
 }  // namespace umbsim

@@ -99,6 +99,29 @@ TEST(Umbmark, TypeAIsTheWheelbaseTypeBTheDiameters) {
 }
 
 // Lecture 7.4: a wheelbase that makes turns of 87 degrees and legs that bend by the missing 3.
+// The factors of all three forms turn unequal wheels into equal ones, about their mean.
+TEST(Umbmark, FactorsMakeTheWheelsEqual) {
+  constexpr double kRoundOff = 1e-12;
+  const Umbmark u = umbmark(squares(TrueRobot::with(1.02, 0.97), nominal_odometry()), nominal_odometry());
+  for (const ErrorEstimate& e : {u.endpoint, u.endpoint_y, u.heading}) {
+    EXPECT_GT(e.e_d, 1.005);
+    EXPECT_NEAR(e.right_factor / e.left_factor, e.e_d, kRoundOff);
+    EXPECT_NEAR(e.right_factor + e.left_factor, 2, kRoundOff);
+  }
+}
+
+TEST(Umbmark, SharesOfTheTypesAreThoseOfTheirSizes) {
+  for (const auto& [e_d, e_b] : {std::pair{1.004, 1.01}, {0.996, 1.01}, {1.004, 0.99}, {0.996, 0.99}}) {
+    const Umbmark u = umbmark(squares(TrueRobot::with(e_d, e_b), nominal_odometry()), nominal_odometry());
+    const double a = std::abs(u.heading.alpha_rad), b = std::abs(u.heading.beta_rad);
+    EXPECT_DOUBLE_EQ(u.type_a_share, a / (a + b));
+    EXPECT_DOUBLE_EQ(u.type_b_share, b / (a + b));
+  }
+  const Umbmark exact = umbmark(squares(TrueRobot::with(1, 1), nominal_odometry()), nominal_odometry());
+  EXPECT_EQ(exact.type_a_share, 0) << "of round-off there are no shares";
+  EXPECT_EQ(exact.type_b_share, 0);
+}
+
 TEST(Umbmark, OneWayTheTwoErrorsHideEachOther) {
   const double E_b = 90.0 / 87, bend = radians(3);
   const double k = bend * E_b * 0.340 / (2 * 4);  // a leg bends by 2 L k / b with k = (1 - E_d) / (1 + E_d)
@@ -157,6 +180,17 @@ void expect_refused(const Recording& recording, const std::string& message) {
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find(message), std::string::npos) << e.what();
   }
+}
+
+TEST(Cluster, OfTwoRunsAndOfOne) {
+  const Cluster two = cluster({{"a", 0.01, 0.02, 0.1}, {"b", 0.03, -0.02, 0.3}});
+  EXPECT_DOUBLE_EQ(two.sd_x_m, 0.02 / std::sqrt(2.0));
+  EXPECT_DOUBLE_EQ(two.sd_y_m, 0.04 / std::sqrt(2.0));
+  EXPECT_DOUBLE_EQ(two.sd_heading_rad, 0.2 / std::sqrt(2.0));
+  const Cluster one = cluster({{"a", 0.03, 0.04, 0.1}});
+  EXPECT_DOUBLE_EQ(one.r_cg_m, 0.05);
+  EXPECT_EQ(one.sd_m, 0);
+  EXPECT_EQ(one.standard_error_m, 0);
 }
 
 TEST(Umbmark, WhatCannotBeMeasuredIsRefused) {

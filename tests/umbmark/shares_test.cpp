@@ -45,5 +45,11 @@ TEST(ErrorShares, OneRunHasNoSpreadAndNoErrorHasNoShares) {
   EXPECT_EQ(none.non_systematic, 0);
 }
 
+TEST(ErrorShares, TwoRunsHaveASpread) {
+  const ErrorShares s = error_shares(cluster({{"a", 0.03, 0.01, 0}, {"b", 0.03, -0.01, 0}}));
+  EXPECT_DOUBLE_EQ(s.systematic_m, 0.03);
+  EXPECT_DOUBLE_EQ(s.non_systematic_m, 0.01);
+}
+
 }  // namespace
 }  // namespace umbsim
