@@ -50,6 +50,15 @@ class StoreTest : public testing::Test {
   std::string folder_;
 };
 
+TEST_F(StoreTest, KnowsTheProgramsThatOpenedIt) {
+  EXPECT_FALSE(open().knows_program()) << "it is new";
+  EXPECT_TRUE(open().knows_program());
+  const Provenance newer{{"version", "1.1"}, {"commit", "def"}};
+  EXPECT_FALSE(Store::open_for(file(), kLayout, newer, Store::Journal::wal).knows_program());
+  EXPECT_TRUE(Store::open_for(file(), kLayout, newer, Store::Journal::wal).knows_program());
+  EXPECT_TRUE(open().knows_program());
+}
+
 TEST_F(StoreTest, KeepsWarningsAndMergesThem) {
   Store a = open("a.sqlite");
   StoredPoint warned = point(2);
