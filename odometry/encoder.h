@@ -43,7 +43,7 @@ inline std::int64_t ticks(const EncoderSpec& spec, double angle_rad) {
 class Encoder {
  public:
   Encoder(const EncoderSpec& spec, const EncoderFaults& faults, RandomStream random)
-      : spec_(spec), faults_(faults), random_(std::move(random)) {}
+      : spec_(spec), faults_(faults), random_(random) {}
 
   /// Reads at `time_s` (increasing) with the shaft at `angle_rad`; returns cumulative ticks as they arrive.
   std::int64_t read(double time_s, double angle_rad);

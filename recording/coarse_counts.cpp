@@ -83,7 +83,8 @@ Candidate candidate(const std::vector<double>& counts, double width, double up_t
   for (const double c : counts) {
     if (c > up_to) break;
     n += 1;
-    const double off = double(std::int64_t(c / width + 0.5)) * width - c;  // of the nearest multiple; c has no sign
+    // Of the nearest multiple. NOLINTNEXTLINE(bugprone-incorrect-roundings): c has no sign
+    const double off = double(std::int64_t(c / width + 0.5)) * width - c;
     hits += off >= -0.5 && off < 0.5;
   }
   return {width, hits * std::log(width) + (n - hits) * miss, hits > 0.995 * n};

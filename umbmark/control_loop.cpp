@@ -60,7 +60,7 @@ double across_gain(double speed_mps) {
 // Along the path it is the same loop as for the heading with a smaller gain, and settles where that one does.
 bool settles(const LoopTiming& t, double speed_mps) {
   const double span_s = std::max({t.period_s, t.sampling_s, t.latency_s, t.lag_s + t.droop_s, kLeastSpan_s});
-  const int third = int(std::ceil(kSpans / 3 * span_s / t.period_s));
+  const int third = int(std::ceil(kSpans / 3.0 * span_s / t.period_s));
   const std::vector<int> seen = readings(t, 3 * third);
   std::vector<OffCourse> past;
   OffCourse off;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <exception>
+
 #include "core/error.h"
 
 namespace umbsim {
@@ -137,8 +139,8 @@ Transaction::~Transaction() {
   if (!open_) return;
   try {
     database_.run("ROLLBACK");
-  } catch (const RunError&) {
-    // SQLite has rolled back by itself, on a full disk for instance.
+  } catch (const std::exception&) {
+    // SQLite has rolled back by itself, on a full disk for instance, or the file is damaged: what led here says so.
   }
 }
 
