@@ -68,7 +68,7 @@ class Prior : public ceres::SizedCostFunction<size, size> {
   bool Evaluate(double const* const* p, double* residuals, double** jacobians) const override {
     for (int i = 0; i < size; ++i) residuals[i] = p[0][i] / sd_[std::size_t(i)];
     if (!jacobians || !jacobians[0]) return true;
-    std::fill(jacobians[0], jacobians[0] + size * size, 0.0);
+    std::fill(jacobians[0], jacobians[0] + std::ptrdiff_t(size) * size, 0.0);
     for (int i = 0; i < size; ++i) jacobians[0][i * size + i] = 1 / sd_[std::size_t(i)];
     return true;
   }
