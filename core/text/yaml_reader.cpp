@@ -59,8 +59,8 @@ std::string Bounds::text() const {
   return out.empty() ? "finite" : out;
 }
 
-YamlValue::YamlValue(YAML::Node node, std::string file, std::string path)
-    : node_(std::move(node)), file_(std::move(file)), path_(std::move(path)) {}
+YamlValue::YamlValue(const YAML::Node& node, std::string file, std::string path)
+    : node_(node), file_(std::move(file)), path_(std::move(path)) {}
 
 YamlValue& YamlValue::operator=(const YamlValue& other) {
   node_.reset(other.node_);

@@ -32,7 +32,7 @@ struct Bounds {
 /// Every accessor throws InputError with file:line:column, key path, value and bound.
 class YamlValue {
  public:
-  YamlValue(YAML::Node node, std::string file, std::string path);
+  YamlValue(const YAML::Node& node, std::string file, std::string path);
   YamlValue(const YamlValue&) = default;
   /// Makes this value stand for the other one. (YAML::Node's own assignment would overwrite the document.)
   YamlValue& operator=(const YamlValue& other);

@@ -53,7 +53,7 @@ void DiagnosisProgress::draw(bool at_once) {
   show_({stage_, now_s, fraction, fraction < 1 ? estimate_.left_s(now_s) : 0});
 }
 
-Simulator DiagnosisProgress::counted(Simulator simulator) {
+Simulator DiagnosisProgress::counted(const Simulator& simulator) {
   Simulator result = simulator;
   result.ticks = [this, ticks = simulator.ticks](std::size_t run, const std::vector<Effect>& effects,
                                                  double roughness_m_per_sqrt_m) {

@@ -28,7 +28,7 @@ class DiagnosisProgress {
   DiagnosisProgress(std::size_t runs, std::vector<UsualStage> usual, Show show);
 
   /// The same simulator, counted. The progress must outlive it.
-  Simulator counted(Simulator simulator);
+  Simulator counted(const Simulator& simulator);
 
   void stage(const std::string& name, double share);
   void finish();
