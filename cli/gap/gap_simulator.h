@@ -25,7 +25,7 @@ class GapStages {
   GapStages& operator=(const GapStages&) = delete;
 
   /// The same simulator, counted. The stages must outlive it.
-  gap::Simulator counted(gap::Simulator simulator) { return progress_.counted(std::move(simulator)); }
+  gap::Simulator counted(const gap::Simulator& simulator) { return progress_.counted(simulator); }
   void report(const std::string& stage, double share) { progress_.stage(stage, share); }
   void done();
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "core/error.h"
 #include "gap/noise/noise_floor.h"
@@ -33,7 +34,7 @@ Found ForwardSearch::run() {
   if (model_.tracker_is_free()) fit_dimensions();
   std::vector<Fit> frontier(fits_.begin() + 1, fits_.end());
   for (int depth = 2; depth <= thresholds_.most_effects; ++depth) {
-    const std::vector<Fit> from = bases(model_, none_, std::move(frontier), thresholds_);
+    const std::vector<Fit> from = bases(model_, none_, std::exchange(frontier, {}), thresholds_);
     if (from.empty() || from.front().log_evidence < none_.log_evidence + thresholds_.detect) break;
     begin(depth == 2 ? "fitting pairs of effects" : "fitting combinations of three");
     for (std::size_t i = 0; i < from.size(); ++i) {
