@@ -12,12 +12,13 @@ namespace {
 
 constexpr int kRoundsBeside = 4;  // the causes have been fitted
 
-Fit with(const Model& model, const Screen& screen, const Fit& fit, const Hypothesis& dimension) {
+Fit with(const Model& model, const Fit& fit, const Hypothesis& more, const Eigen::VectorXd& from,
+         const Descending& descending = {}, const std::optional<Linearisation>& known = std::nullopt) {
   std::vector<Hypothesis> hypotheses = fit.hypotheses;
-  hypotheses.push_back(dimension);
-  Eigen::VectorXd start(fit.p.size() + Eigen::Index(dimension.parameters.size()));
-  start << fit.p, start_of(dimension);
-  return model.fit(hypotheses, start, {kRoundsBeside}, {}, screen.near(fit, dimension));
+  hypotheses.push_back(more);
+  Eigen::VectorXd start(fit.p.size() + from.size());
+  start << fit.p, from;
+  return model.fit(hypotheses, start, descending, {}, known);
 }
 
 // Whether runs come nearer by as much as is left, and as noise makes (mean squares).
@@ -31,7 +32,8 @@ bool add_dimension(const Model& model, const Screen& screen, EffectiveTwin& twin
       screen.by_derivatives(twin.fit, [](const Hypothesis& h) { return is_dimension(h.effect); });
   std::sort(dimensions.begin(), dimensions.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
   for (const Screen::Candidate& dimension : dimensions) {
-    Fit fit = with(model, screen, twin.fit, dimension.hypothesis);
+    const Hypothesis& h = dimension.hypothesis;
+    Fit fit = with(model, twin.fit, h, start_of(h), {kRoundsBeside}, screen.near(twin.fit, h));
     const double floor_mm = twin.closure.floor_mm;
     if (!pays(in_sample_error_mm(model, twin.fit), in_sample_error_mm(model, fit), floor_mm)) continue;
     const Closure closure = held_out_closure(model, fit);
@@ -64,8 +66,8 @@ Fit driven_part(const Model& model, Fit twin) {
 
 EffectiveTwin with_dimensions(const Model& model, const Screen& screen, const Fit& none, const Fit& twin,
                               const Closure& closure) {
-  const bool takes_nothing = twin.hypotheses.empty() || closure.after_mm == closure.before_mm;
   if (closure.after_mm <= closure.most_noise_mm) return {{}, driven_part(model, twin), closure};
+  const bool takes_nothing = twin.hypotheses.empty() || closure.after_mm == closure.before_mm;
   EffectiveTwin best = calibrated(model, screen, takes_nothing ? none : driven_part(model, twin), closure);
   if (!takes_nothing) {
     Closure nothing = closure;
@@ -79,7 +81,7 @@ EffectiveTwin with_dimensions(const Model& model, const Screen& screen, const Fi
 // Neither effect of the scrub is in the twin already, or excluded.
 bool may_scrub(const Fit& twin, const std::set<std::string>& excluded) {
   const Hypothesis scrub = scrub_hypothesis();
-  std::vector<Effect> there = twin.effects();
+  const std::vector<Effect> there = twin.effects();
   for (const Effect& e : effects_of(scrub, start_of(scrub))) {
     const auto is_it = [&](const Effect& other) { return other.info == e.info; };
     if (excluded.count(e.info->name) > 0 || std::any_of(there.begin(), there.end(), is_it)) return false;
@@ -88,14 +90,11 @@ bool may_scrub(const Fit& twin, const std::set<std::string>& excluded) {
 }
 
 void add_scrub(const Model& model, EffectiveTwin& twin) {
-  std::vector<Hypothesis> hypotheses = twin.fit.hypotheses;
-  hypotheses.push_back(scrub_hypothesis());
-  Eigen::VectorXd start(twin.fit.p.size() + 1);
-  start << twin.fit.p, hypotheses.back().parameters.front().step;
-  Fit fit = model.fit(hypotheses, start);
+  const Hypothesis scrub = scrub_hypothesis();
+  Fit fit = with(model, twin.fit, scrub, Eigen::VectorXd::Constant(1, scrub.parameters.front().step));
   const Closure closure = held_out_closure(model, fit);
   if (!closure.known || closure.after_mm >= twin.closure.after_mm) return;
-  twin.dimensions.push_back(hypotheses.back().effect);
+  twin.dimensions.push_back(scrub.effect);
   twin.fit = std::move(fit);
   twin.closure = closure;
 }

@@ -204,6 +204,16 @@ TEST(Verdict, EffectiveDimensionsAreNoCause) {
   EXPECT_FALSE(json["causes"][0]["effects"].contains("wheelbase"));
 }
 
+// What goes with a scrub is said, too: it stands in the twin.
+TEST(Verdict, AScrubNamesTheCreepThatItNeeds) {
+  Diagnosis d = found({wheelbase(0.005)});
+  const Cause scrubs = cause({hypothesis_of("wheelbase", "relative"), scrub_hypothesis()}, {0.005, 0.13}, 0.1);
+  d.effective = EffectiveTwin{{"caster_drag"}, scrubs.fit, d.closure};
+  expect_in(said(d), "In the twin, the casters drag with 13");
+  expect_in(said(d), "of their load and the tyres creep by 5 % along their way");
+  EXPECT_TRUE(diagnosis_json(d)["closure"]["effective"]["beside_causes"]);
+}
+
 // Everything of the catalogue at once, with the longest names.
 TEST(DiagnosisText, FitsATerminal) {
   std::vector<Hypothesis> longest{hypothesis_of("wheel_radius_difference", "right over left"),

@@ -98,7 +98,6 @@ TEST(Umbmark, TypeAIsTheWheelbaseTypeBTheDiameters) {
   EXPECT_EQ(umbmark(squares({}, nominal_odometry()), nominal_odometry()).heading.e_d, 1);
 }
 
-// Lecture 7.4: a wheelbase that makes turns of 87 degrees and legs that bend by the missing 3.
 // The factors of all three forms turn unequal wheels into equal ones, about their mean.
 TEST(Umbmark, FactorsMakeTheWheelsEqual) {
   constexpr double kRoundOff = 1e-12;
@@ -122,6 +121,7 @@ TEST(Umbmark, SharesOfTheTypesAreThoseOfTheirSizes) {
   EXPECT_EQ(exact.type_b_share, 0);
 }
 
+// Lecture 7.4: a wheelbase that makes turns of 87 degrees and legs that bend by the missing 3.
 TEST(Umbmark, OneWayTheTwoErrorsHideEachOther) {
   const double E_b = 90.0 / 87, bend = radians(3);
   const double k = bend * E_b * 0.340 / (2 * 4);  // a leg bends by 2 L k / b with k = (1 - E_d) / (1 + E_d)
