@@ -21,6 +21,7 @@ constexpr Descending kFromTop{2, 1.0 / 64};  // where a search ended
 constexpr double kAnotherVariant = 3;        // log evidence by which a second hypothesis of one effect may promise less
 constexpr double kLocalHint = 0.25;          // of what explains all, below which no place or moment is searched for
 constexpr double kWorthASearch = 0.1;        // of what the best single effect explains, the same of the best start
+constexpr double kNearRival = 0.4;           // of what the best place or moment explains, the same of another's start
 constexpr double kPartOfNeeded = 0.25;       // of what a further effect must bring, the same of its best start
 constexpr double kDoubtful = 0.3;            // of what a further effect must bring
 constexpr double kScreening = 0.2;           // of the time of single effects
@@ -115,18 +116,25 @@ void ForwardSearch::fit_singles() {
 
 // `local`: places and moments, or all others.
 void ForwardSearch::fit_promising(std::vector<Screen::Candidate>& singles, bool local, Part part) {
-  const std::vector<std::size_t> promising = worth_a_fit(singles);
+  std::vector<std::size_t> promising = worth_a_fit(singles);
+  std::erase_if(promising, [&](std::size_t i) { return (singles[i].hypothesis.search_cost > 0) != local; });
+  // Where most is promised for a start first: what is found there spares others their search.
+  const auto promises_more = [&](std::size_t a, std::size_t b) {
+    return singles[a].gain * double(singles[b].starts.size()) > singles[b].gain * double(singles[a].starts.size());
+  };
+  if (local) std::stable_sort(promising.begin(), promising.end(), promises_more);
+  double most_local = 0;
   for (std::size_t i = 0; i < promising.size(); ++i) {
     done(part.from + part.size * double(i) / double(promising.size()));
     Screen::Candidate& c = singles[promising[i]];
-    if ((c.hypothesis.search_cost > 0) != local) continue;
     const double most = std::max_element(fits_.begin(), fits_.end(), less_evidence)->log_evidence - none_.log_evidence;
     if (local && idle(c, most)) continue;
-    const double least =
-        none_.log_evidence + std::max(kWorthASearch * most, c.hypothesis.search_cost + thresholds_.effect_cost);
-    if (auto fit = tried(none_, c, least)) {
-      fits_.push_back(std::move(*fit));
-    }
+    const double least = none_.log_evidence + std::max({kWorthASearch * most, kNearRival * most_local,
+                                                        c.hypothesis.search_cost + thresholds_.effect_cost});
+    auto fit = tried(none_, c, least);
+    if (!fit) continue;
+    if (local) most_local = std::max(most_local, fit->log_evidence - none_.log_evidence);
+    fits_.push_back(std::move(*fit));
   }
 }
 
