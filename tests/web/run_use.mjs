@@ -1,6 +1,6 @@
 // run_use.mjs TOOLS REPORT.html: what a reader does with the page of a run: enlarges, marks, saves, follows a link, prints.
 import assert from "node:assert/strict";
-import {again, close, dataOf, download, open, pages, run, sound} from "./browser.mjs";
+import {again, close, dataOf, download, fits, open, pages, run, sound} from "./browser.mjs";
 
 const [file] = pages;
 const data = dataOf(file);
@@ -88,12 +88,36 @@ await run({
     await close(page);
   },
 
-  async "it prints, without its buttons"() {
+  async "directions differ by shape, not by colour alone"() {
     const page = await again(file);
-    const pdf = await page.pdf({format: "A4"});
+    const marks = await page.locator("#scatter-all .end-point").evaluateAll((groups) => groups.map((g) => {
+      const {tagName, attributes} = g.firstElementChild;
+      return [/--c?cw/.exec(g.outerHTML)[0], `${tagName} ${attributes.d?.value ?? ""}`];
+    }));
+    const shapes = (direction) => new Set(marks.filter(([colour]) => colour === direction).map(([, shape]) => shape));
+    const [cw, ccw] = [shapes("--cw"), shapes("--ccw")];
+    assert.ok(cw.size && ccw.size, `${marks}`);
+    for (const shape of cw) assert.ok(!ccw.has(shape), `cw and ccw are both drawn as ${shape}`);
+    await sound(page);
+  },
+
+  async "it prints on A4, without its buttons, and cuts no chart"() {
+    const [kWide, kHigh] = [718, 1047];  // CSS pixels of A4 between margins of 1 cm
+    const page = await again(file);
+    const pdf = await page.pdf({format: "A4", margin: {top: "1cm", bottom: "1cm", left: "1cm", right: "1cm"}});
     assert.ok(pdf.length > 20_000 && pdf.subarray(0, 4).toString() === "%PDF");
     await page.emulateMedia({media: "print"});
+    await page.setViewportSize({width: kWide, height: kHigh});
     assert.equal(await page.locator(".chart-tools").first().isVisible(), false);
+    await fits(page);
+    const charts = await page.locator(".plot svg:visible").all();
+    assert.ok(charts.length >= 3, `${charts.length} charts`);
+    for (const chart of charts) {
+      const {x, width, height} = await chart.boundingBox();
+      const what = await chart.getAttribute("aria-label");
+      assert.ok(x >= 0 && x + width <= kWide + 1 && height <= kHigh, `${what}: ${width} by ${height} px from ${x}`);
+      assert.equal(await chart.evaluate((e) => getComputedStyle(e).breakInside), "avoid", what);
+    }
     await close(page);
   },
 });
