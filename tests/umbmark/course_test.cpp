@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "tests/umbmark/exact_kinematics.h"
+#include "umbmark/control_loop.h"
 
 namespace umbsim {
 namespace {
@@ -38,6 +39,15 @@ TEST(Plan, ShortWaysAreTriangles) {
   Course c;
   c.side_m = 0.1;  // 0.2 m/s needs 0.16 m to speed up and slow down
   EXPECT_NEAR(Plan(c, Direction::cw).segments()[0].duration_s, 2 * std::sqrt(0.1 / 0.25), kCourseRoundOff);
+}
+
+TEST(Plan, ATightCircleIsNoFasterThanItsTurn) {
+  Course c;
+  c.shape = "circle";
+  c.radius_m = 0.15;  // 0.2 m/s would be 1.33 rad/s
+  const Segment circle = Plan(c, Direction::ccw).segments()[0];
+  EXPECT_NEAR(circle.speed, 0.7 * 0.15, kCourseRoundOff);
+  EXPECT_NEAR(circle.duration_s, 2 * M_PI / 0.7 + 0.7 * 0.15 / 0.25, kCourseRoundOff);
 }
 
 TEST(Plan, ArcTurnsAreQuarterCircles) {
@@ -170,6 +180,26 @@ TEST(Driver, ConvergesFromAnOffset) {
   EXPECT_LT(after_one_m, 0.5 * 0.05);
   EXPECT_LT(after_four_m, 0.05 * 0.05);
   EXPECT_NEAR(robot.heading, 2 * M_PI, 0.001);
+}
+
+// The law itself, of a robot whose wheels have a radius of one metre and stand two apart: half their sum is the speed,
+// half their difference the turn. The speed follows the cosine of the heading error, by its series and beyond.
+TEST(Driver, CorrectsByTheLawOfKanayama) {
+  constexpr double kSpeed = 0.8, kPeriod_s = 0.02, kAlong_m = 0.03, kAcross_m = -0.05;
+  constexpr double kRoundOff = 1e-15;
+  for (const double heading_error_rad : {-0.5, -0.09999, 0.0, 0.05, 0.09999, 0.3}) {
+    const double c = std::cos(heading_error_rad), s = std::sin(heading_error_rad);
+    // The robot looks along x, so that the reference's place in its frame is that of the world.
+    const Pose2 X_SR{kAlong_m, kAcross_m, heading_error_rad};
+    const Pose2 X_next{kAlong_m + kSpeed * kPeriod_s * c, kAcross_m + kSpeed * kPeriod_s * s, heading_error_rad};
+    const WheelSpeeds w = follow(X_SR, X_next, kPeriod_s, {}, {1, 1, 2});
+    const double speed = (w.left_radps + w.right_radps) / 2, turn = (w.right_radps - w.left_radps) / 2;
+    EXPECT_NEAR(speed, kSpeed * c + kDriver.along * kAlong_m, 4 * kRoundOff) << heading_error_rad;
+    EXPECT_NEAR(turn, kDriver.heading * heading_error_rad + across_gain(kSpeed) * kAcross_m, 4 * kRoundOff);
+  }
+  const WheelSpeeds unequal = follow({}, {kSpeed * kPeriod_s, 0, 0}, kPeriod_s, {}, {0.5, 0.25, 2});
+  EXPECT_NEAR(unequal.left_radps, kSpeed / 0.5, 8 * kRoundOff);
+  EXPECT_NEAR(unequal.right_radps, kSpeed / 0.25, 8 * kRoundOff);
 }
 
 TEST(Driver, StandsStillAtTheEnd) {
