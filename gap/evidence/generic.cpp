@@ -103,9 +103,9 @@ Raw raw_columns(const Model& model, std::size_t r) {
     parts[3 * stretch + 1][i][1] = share;
     parts[3 * stretch + 2][i][2] = turn ? u.theta_rad : rolled;
     const double angle[2] = {k * double(encoders[e].left_ticks), k * double(encoders[e].right_ticks)};
-    for (int w = 0; w < 2; ++w) {
-      ripples[std::size_t(2 * w)][i][2] = std::cos(angle[w]) - std::cos(before[w]);
-      ripples[std::size_t(2 * w + 1)][i][2] = std::sin(angle[w]) - std::sin(before[w]);
+    for (std::size_t w = 0; w < 2; ++w) {
+      ripples[2 * w][i][2] = std::cos(angle[w]) - std::cos(before[w]);
+      ripples[2 * w + 1][i][2] = std::sin(angle[w]) - std::sin(before[w]);
       before[w] = angle[w];
     }
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace umbsim::gap {
 
@@ -15,8 +16,8 @@ std::size_t index_of(const EffectInfo& info, const std::string& parameter) {
 }
 
 Hypothesis direct(const std::string& effect, const std::string& variant, std::vector<FreeParameter> parameters,
-                  std::vector<std::pair<std::string, double>> fixed) {
-  Hypothesis hypothesis{effect, variant, parameters, {}, {}, true, 0};
+                  const std::vector<std::pair<std::string, double>>& fixed) {
+  Hypothesis hypothesis{effect, variant, std::move(parameters), {}, {}, true, 0};
   const EffectInfo& info = find_effect(effect);
   EffectValues base = neutral_effect(info).values;
   for (const auto& [name, value] : fixed) base.numbers[index_of(info, name)] = value;

@@ -13,7 +13,7 @@ std::size_t index_of(const EffectInfo& info, const std::string& parameter);
 
 /// A hypothesis whose free numbers are parameters of the effect as they are; others at `fixed`, or neutral.
 Hypothesis direct(const std::string& effect, const std::string& variant, std::vector<FreeParameter> parameters,
-                  std::vector<std::pair<std::string, double>> fixed = {});
+                  const std::vector<std::pair<std::string, double>>& fixed = {});
 
 /// A size and a direction, fitted as two components.
 Hypothesis vector_hypothesis(const std::string& effect, const std::string& size, const std::string& angle, double step,
