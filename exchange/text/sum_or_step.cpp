@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "exchange/import/wheels/counts.h"
 
 namespace umbsim::exchange {
 namespace {
@@ -62,7 +63,7 @@ bool is_steps(const SignalStatistics& h) {
 bool is_per_sample(const WheelSignal& signal, bool name_says_so, const std::string& said, const std::string& file) {
   if (!said.empty()) return said == "per-sample";
   if (name_says_so) return true;
-  const SignalStatistics statistics = statistics_of(signal.value);
+  const SignalStatistics statistics = statistics_of(unwrapped(signal).value);
   if (statistics.range == 0) return false;  // a wheel that stands still is one by any reading; the checks will name it
   if (is_sum(statistics)) return false;
   if (is_steps(statistics)) return true;

@@ -36,7 +36,7 @@ Inertial lumped(const Inertial& a, const Inertial& b) {
 std::string inertia_fault(const Eigen::Matrix3d& inertia_kgm2) {
   if (!inertia_kgm2.allFinite()) return "inertia is not finite";
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia_kgm2, Eigen::EigenvaluesOnly);
-  const Eigen::Vector3d moments = solver.eigenvalues();  // ascending
+  const Eigen::Vector3d& moments = solver.eigenvalues();  // ascending
   const auto text = [&](const char* what) {
     return fmt::format("inertia {}: principal moments {:.4g}, {:.4g}, {:.4g} kg m2", what, moments[0], moments[1],
                        moments[2]);

@@ -113,7 +113,7 @@ void complete_fork(const UrdfSource& source, const Body& body, double robot_kg, 
                                                    source.link_text(body.link), fault, fork.mass_kg, caster.radius_m));
 }
 
-RollingMass complete_wheel(const UrdfSource& source, const Body& body, Inertial inertial, double robot_kg,
+RollingMass complete_wheel(const UrdfSource& source, const Body& body, const Inertial& inertial, double robot_kg,
                            double radius_m) {
   const std::string fault = inertial.mass_kg == 0 ? "without mass" : inertia_fault(inertial.inertia_kgm2);
   if (fault.empty()) return rolling_mass(source, body, inertial, radius_m);

@@ -1,5 +1,7 @@
 // `umbsim import` on logs of one drive in every form: all of them become the same recording, and it says what drive.py
 // put into the robot.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "tests/exchange/data_folder.h"
@@ -111,6 +113,84 @@ TEST(Import, DecimalCommasMillimetresMillisecondsAndWrappedDegrees) {
   expect_says(unwrapped(outcome.out), {"parted by ';'", "decimal comma", "ms", "4 turns unwrapped"});
   const auto poses = numbers_of(desk.home / "out/runs/ccw-1/truth.csv");
   EXPECT_NEAR(poses.back()[3] - poses.front()[3], 2 * M_PI, 0.2);
+}
+
+// The wheels of ticks.csv as a log in another unit: `per_turn` of them are a turn. `form`: what a row holds.
+enum class Rows { sums, steps, within_a_turn, rates };
+
+std::string wheels_in(double per_turn, Rows form) {
+  const auto source = numbers_of(data("ticks.csv"));
+  std::ifstream stamps(data("ticks.csv"));
+  std::string line, text = "time_s,left,right\n";
+  std::getline(stamps, line);
+  for (std::size_t i = 0; i < source.size() && std::getline(stamps, line); ++i) {
+    text += line.substr(0, line.find(','));
+    for (const std::size_t k : {1u, 2u}) {
+      const auto turned = [&](std::size_t at) { return per_turn * source[at][k] / 4096; };
+      const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, source.size() - 1);
+      const double value = form == Rows::sums    ? turned(i)
+                           : form == Rows::steps ? turned(i) - turned(before)
+                           : form == Rows::within_a_turn
+                               ? turned(i) - per_turn * std::floor(turned(i) / per_turn)
+                               : (turned(after) - turned(before)) / (0.05 * double(after - before));
+      text += fmt::format(",{:.12g}", value);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(Import, WheelsInAnyUnitAreTheSameTurns) {
+  constexpr double kCircle_m = 2 * M_PI * 0.033;
+  constexpr double kCount = 1;          // to which a recording rounds
+  constexpr double kCountsAStep = 120;  // between two samples, and so of what speeds between them leave open
+  struct Case {
+    const char* unit;
+    double per_turn;
+    Rows form;
+  };
+  const Desk desk;
+  ASSERT_EQ(import(desk, forms()[0].words).code, 0);
+  const auto expected = numbers_of(desk.home / "out/runs/cw-1/encoders.csv");
+  for (const Case& c : {Case{"rad", 2 * M_PI, Rows::sums}, Case{"deg", 360, Rows::sums}, Case{"rev", 1, Rows::sums},
+                        Case{"m", kCircle_m, Rows::sums}, Case{"mm", 1000 * kCircle_m, Rows::sums},
+                        Case{"cm", 100 * kCircle_m, Rows::sums}, Case{"ticks", 4096, Rows::steps},
+                        Case{"mm", 1000 * kCircle_m, Rows::steps}, Case{"rad", 2 * M_PI, Rows::within_a_turn},
+                        Case{"deg", 360, Rows::within_a_turn}, Case{"rad/s", 2 * M_PI, Rows::rates},
+                        Case{"deg/s", 360, Rows::rates}, Case{"rpm", 60, Rows::rates},
+                        Case{"m/s", kCircle_m, Rows::rates}, Case{"mm/s", 1000 * kCircle_m, Rows::rates}}) {
+    SCOPED_TRACE(fmt::format("{} {}", c.unit, int(c.form)));
+    desk.put("wheels.csv", wheels_in(c.per_turn, c.form));
+    fs::remove_all(desk.home / "out");
+    Words words = joined({"wheels.csv", "--truth-file", data("truth.tum"), "--unit", c.unit}, kTicks);
+    if (c.form == Rows::steps) words = joined(words, {"--counts", "per-sample"});
+    const Outcome outcome = import(desk, words);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out.find("jumps unwrapped") != std::string::npos, c.form == Rows::within_a_turn) << outcome.out;
+    const auto rows = numbers_of(desk.home / "out/runs/cw-1/encoders.csv");
+    const double within = c.form == Rows::rates ? kCountsAStep : kCount;
+    for (std::size_t i = 0; i < std::min(rows.size(), expected.size()); i += 20) {
+      for (const std::size_t k : {1u, 2u}) EXPECT_NEAR(rows[i][k], expected[i][k], within) << i;
+    }
+    if (c.form != Rows::rates) {
+      EXPECT_EQ(rows.size(), expected.size());
+    }
+    EXPECT_NEAR(double(rows.size()), double(expected.size()), 20);
+  }
+}
+
+TEST(Import, ColumnsOfTheTruthMayBeNamed) {
+  const Desk desk;
+  const Words named = {data("german.csv"), "--x-column", "x [mm]", "--y-column", "y [mm]", "--heading-column", "7"};
+  const Outcome wrong = import(desk, joined(named, kTicks));
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.err.find("7"), std::string::npos) << wrong.err;
+  ASSERT_EQ(import(desk, joined({data("german.csv")}, kTicks), "whole").code, 0);
+  const Outcome outcome = import(
+      desk, joined({data("german.csv"), "--x-column", "x [mm]", "--y-column", "5", "--heading-column", "heading [deg]"},
+                   kTicks));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(numbers_of(desk.home / "out/runs/ccw-1/truth.csv"), numbers_of(desk.home / "whole/runs/ccw-1/truth.csv"));
 }
 
 TEST(Import, RunsAreCutByTimesOrStandstills) {

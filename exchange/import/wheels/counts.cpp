@@ -35,23 +35,26 @@ double scale(WheelUnit unit, double radius_m) {
   return 1;
 }
 
-// Angles that fall back by a turn at one end of the circle and go on at the other.
-std::size_t unwrap(std::vector<double>& revolutions) {
-  constexpr double kJump = 0.75;
-  std::size_t jumps = 0;
-  double add = 0;
-  for (std::size_t i = 1; i < revolutions.size(); ++i) {
-    const double step = revolutions[i] + add - revolutions[i - 1];
-    if (std::abs(step) > kJump && std::abs(std::abs(step) - 1) < 1 - kJump) {
-      add -= std::copysign(1.0, step);
-      ++jumps;
-    }
-    revolutions[i] += add;
-  }
-  return jumps;
-}
-
 }  // namespace
+
+Unwrapped unwrapped(const WheelSignal& s) {
+  constexpr double kJump = 0.75;  // of a turn
+  Unwrapped all{s.value, 0};
+  if (s.value.empty() || (s.unit != WheelUnit::rad && s.unit != WheelUnit::deg && s.unit != WheelUnit::rev)) return all;
+  const double turn = 1 / scale(s.unit, 1);
+  const auto [low, high] = std::minmax_element(s.value.begin(), s.value.end());
+  if (*high - *low > (1 + 1e-6) * turn) return all;
+  double add = 0;
+  for (std::size_t i = 1; i < all.value.size(); ++i) {
+    const double step = (s.value[i] - s.value[i - 1]) / turn;
+    if (std::abs(step) > kJump) {
+      add -= std::copysign(turn, step);
+      ++all.jumps;
+    }
+    all.value[i] += add;
+  }
+  return all;
+}
 
 std::vector<double> turned(const WheelSignal& s, double wheel_radius_m, std::vector<std::string>& found) {
   const double k = scale(s.unit, wheel_radius_m);
@@ -66,14 +69,10 @@ std::vector<double> turned(const WheelSignal& s, double wheel_radius_m, std::vec
     for (std::size_t i = 1; i < sum.size(); ++i) sum[i] = sum[i - 1] + k * s.value[i];
     return sum;
   }
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = k * s.value[i];
-  if (s.unit == WheelUnit::rad || s.unit == WheelUnit::deg || s.unit == WheelUnit::rev) {
-    const auto [low, high] = std::minmax_element(sum.begin(), sum.end());
-    const std::size_t jumps = *high - *low <= 1 + 1e-6 ? unwrap(sum) : 0;
-    if (jumps) found.push_back(fmt::format("{}: angles within one turn, {} jumps unwrapped", s.name, jumps));
-  }
-  const double first = sum.front();
-  for (double& v : sum) v -= first;
+  const Unwrapped angles = unwrapped(s);
+  if (angles.jumps > 0)
+    found.push_back(fmt::format("{}: angles within one turn, {} jumps unwrapped", s.name, angles.jumps));
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = k * angles.value[i] - k * angles.value.front();
   return sum;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,6 +9,13 @@
 #include "recording/recording.h"
 
 namespace umbsim::exchange {
+
+/// A signal's values: of angles that stay within one turn, as they go on without the jumps at its end.
+struct Unwrapped {
+  std::vector<double> value;
+  std::size_t jumps = 0;
+};
+Unwrapped unwrapped(const WheelSignal& signal);
 
 /// What a wheel turned, in revolutions since its first sample (ticks: in counts).
 std::vector<double> turned(const WheelSignal& signal, double wheel_radius_m, std::vector<std::string>& found);
