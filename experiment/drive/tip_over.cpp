@@ -69,9 +69,9 @@ Asked asked_rolling(const Segment& s, const Course& course, const Course& as_giv
 Asked asked(const Segment& s, const Course& course, const Course& as_given, double time_s) {
   Asked a = s.length_m == 0 ? asked_in_place(s, course, as_given) : asked_rolling(s, course, as_given);
   a.ramp_s = s.ramp_s;
-  const std::string where = s.leg == 0 ? "in the turn before leg 1"
-                                       : fmt::format("{} {}", s.kind == Segment::Kind::leg ? "on leg" : "in the turn after leg",
-                                                     s.leg);
+  const std::string where =
+      s.leg == 0 ? "in the turn before leg 1"
+                 : fmt::format("{} {}", s.kind == Segment::Kind::leg ? "on leg" : "in the turn after leg", s.leg);
   a.doing = fmt::format("{} ({})", where, phase(s, time_s - s.start_s));
   return a;
 }
@@ -103,8 +103,12 @@ std::string rounded_down(double value) {
 
 // By the balance of moments alone: whether the wheels have grip for as much is another question.
 std::string limits(const Asked& a, const Standing& standing, const LoopTiming& timing) {
-  const double up = standing.largest_share(a.changing, a.fastest);
-  const double down = standing.largest_share(backwards(a.changing), a.fastest);
+  // Moments grow with the square of the speed: what stands at rest and at full speed stands between.
+  const auto largest = [&](const FloorMotion& more) {
+    return std::min(standing.largest_share(more), standing.largest_share(more, a.fastest));
+  };
+  const double up = largest(a.changing);
+  const double down = largest(backwards(a.changing));
   const double more = overshoot(timing, a.gain, a.ramp_s);
   const std::string it_stands = fmt::format(
       "By its centre of mass and its supports it stands {} {} speeding up and {} slowing down; the driver's "
@@ -134,8 +138,9 @@ std::string limits_there(const Fall& fall, const Scenario& s, const Rig& rig, co
 
 std::string tip_over_message(const Fall& fall, const Scenario& s, const Rig& rig, const Plan& plan,
                              const RunSpec& spec) {
-  const Segment& segment = plan.segments()[std::size_t(plan.segment_at(fall.stood_s))];
-  const Asked a = asked(segment, commanded(s.course, rig.commanded_motion), s.course, fall.stood_s);
+  const double falls_s = fall.stood_s + s.physics.step_s;  // the first moment at which its supports no longer held it
+  const Segment& segment = plan.segments()[std::size_t(plan.segment_at(falls_s))];
+  const Asked a = asked(segment, commanded(s.course, rig.commanded_motion), s.course, falls_s);
   const std::string lifted = fall.lifted.empty() ? "" : fmt::format(", {} off the floor", fall.lifted);
   return fmt::format(
       "{}: run {}: the robot tips over {} from {:.2f} s after its start, {}, where the course asks for {:g} {}: at "

@@ -81,6 +81,24 @@ TEST_F(TippingRobot, StandsTheAccelerationThatIsAdvisedAndNoMoreThanItIsSaidToSt
   EXPECT_EQ(drive((1 + kNear) * number_after(message, "it stands ")).code, kRunFailed);
 }
 
+// By hand: on the spot, from rest, the moments about the axle are those of the weight ahead of it, and of what lies to
+// the left and above: m g x = alpha m y z, summed over hull and payload. The fall begins as the turn does.
+TEST_F(TippingRobot, InATurnOnTheSpotItIsTheTurnThatIsNamed) {
+  constexpr double kStands_radps2 = 9.81 * (10 * 0.02 + 10 * 0.03) / (10 * 0.12 * (0.1 + 0.35));
+  const auto turn = [&](double acceleration) {
+    return drive(0.1, {"--set", "course.angular_speed_radps=8", "--set",
+                       "course.angular_acceleration_radps2=" + std::to_string(acceleration), "--set",
+                       "effects.load_shift.payload_kg=10", "--set", "effects.load_shift.ahead_m=0.03", "--set",
+                       "effects.load_shift.left_m=0.12", "--set", "effects.load_shift.height_m=0.35"});
+  };
+  const Outcome tipped = turn(1.1 * kStands_radps2);
+  EXPECT_EQ(tipped.code, kRunFailed);
+  expect_says(tipped.err, {"tips over backwards", "in the turn after leg 1 (speeding up)", "9.9916", "rad/s^2",
+                           "lower course.angular_acceleration_radps2 to "});
+  EXPECT_NEAR(number_after(tipped.err, "it stands "), kStands_radps2, 0.005 * kStands_radps2);
+  EXPECT_EQ(turn(number_after(tipped.err, "lower course.angular_acceleration_radps2 to ")).code, 0);
+}
+
 // Rigid supports, and a driver that follows its course to a millisecond: the balance of moments to 1 %.
 TEST_F(TippingRobot, RigidItTipsOverWhereTheMomentsSay) {
   const std::vector<std::string> rigid{"--set", "physics={static_sink_m: 0, step_s: 0.001}",
