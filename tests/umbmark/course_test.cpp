@@ -270,7 +270,6 @@ TEST(Shapes, APathPassesItsWaypointsAndIsMirroredForCw) {
   }
 }
 
-// Corners are cut: an arc of radius r takes r tan(turn / 2) of the legs at either side.
 TEST(Shapes, APathThatGoesStraightBackTurnsToTheLeft) {
   // Along, against and across the axes: the bearings' difference is +pi or -pi by round-off alone.
   for (const Waypoint& there : {Waypoint{1, 0}, Waypoint{-1, 0}, Waypoint{0, 1}, Waypoint{0.3, -0.7}}) {
@@ -282,6 +281,7 @@ TEST(Shapes, APathThatGoesStraightBackTurnsToTheLeft) {
   }
 }
 
+// Corners are cut: an arc of radius r takes r tan(turn / 2) of the legs at either side.
 TEST(Shapes, ArcsTouchBothLegsOfAPath) {
   const Plan plan(path_course({{2, 0}, {2, 2}}, "arc"), Direction::ccw);
   ASSERT_EQ(plan.segments().size(), 3u);
