@@ -14,6 +14,7 @@ WorldVerdict verdict(const std::string& kind, const std::string& truth, const st
   w.verdict.named = named;
   w.verdict.detected = named != "none";
   w.verdict.right = truth == named;
+  w.verdict.wall_s = double(split(truth).size());
   for (const std::string& effect : split(truth)) {
     if (effect != "none") w.verdict.answer.effects[effect] = {};
   }
@@ -40,6 +41,10 @@ TEST(WorldScore, CountsWhatItSays) {
   v[3].not_there = {0.2};
   v[2].verdict.diagnosis.closure = 0.9;
   v[3].verdict.diagnosis.closure = 0.5;
+  v[4].verdict.distinguishable = false;
+  v[4].verdict.in_set = v[6].verdict.both_in_set = true;
+  v[4].verdict.diagnosis.closure = -0.2;
+  v[2].verdict.parameters = {{"bump", "height_m", 0.01, 0.011, 0.1, true}, {"bump", "x_m", 1, 1.1, 0.1, false}};
   v.push_back(verdict("single", "wear", "none"));
   v.back().verdict.answer.undetectable_expected = true;
   v.push_back(verdict("none", "none", "motor_response"));  // a lag that commands show, and hardly a pose
@@ -53,6 +58,12 @@ TEST(WorldScore, CountsWhatItSays) {
   EXPECT_EQ(f.pose_alarm.cases, 3);
   EXPECT_EQ(f.right.hits, 1);
   EXPECT_EQ(f.right.cases, 3);
+  EXPECT_EQ(f.told_apart.hits, 1);
+  EXPECT_EQ(f.told_apart.cases, 2);  // these runs mistake the wheelbase for a contact's width
+  EXPECT_EQ(f.both.hits, 0);
+  EXPECT_EQ(f.both.cases, 1);
+  EXPECT_EQ(f.in_set.hits, 2);  // the wheelbase, and the three
+  EXPECT_EQ(f.in_set.cases, 5);
   EXPECT_EQ(f.named.hits, 3);  // bump, push beside wear, and the three
   EXPECT_EQ(f.named.cases, 5);
   EXPECT_EQ(f.not_there.hits, 1);  // what is worth a fifth of a noise floor does not count
@@ -61,7 +72,13 @@ TEST(WorldScore, CountsWhatItSays) {
   EXPECT_EQ(f.untrue.hits, 3);  // in two cases without effect, and wear beside a push
   EXPECT_EQ(f.untrue.cases, 9);
   EXPECT_EQ(f.closed.hits, 1);
-  EXPECT_EQ(f.closed.cases, 2);
+  EXPECT_EQ(f.closed.cases, 3);
+  EXPECT_DOUBLE_EQ(f.closure.estimate.value, 0.5);
+  EXPECT_EQ(f.misled.hits, 1);
+  EXPECT_EQ(f.misled.cases, 3);
+  EXPECT_EQ(f.covered.hits, 1);
+  EXPECT_EQ(f.covered.cases, 2);
+  EXPECT_EQ(f.longest_s.estimate.value, 3);
 }
 
 // Twenty known effects with leanings 0.00, 0.01, ... 0.19: one of them may be rejected, so what counts as unknown leans

@@ -36,14 +36,21 @@ struct WorldFigures {
   Figure pose_alarm;      ///< of those, something named that moves the robot by over half a noise floor
   Figure quiet_alarm;     ///< of cases without effect in worlds that are off by less than half a noise floor themselves
   Figure right;           ///< first cause exactly right, one effect that shows
+  Figure told_apart;      ///< the same where the diagnosis does not say that these runs mistake it for another
+  Figure both;            ///< both of two effects named, and nothing else
   Figure named;           ///< truth among the named: one to three effects that show
+  Figure in_set;          ///< truth in one member of the set: one to three effects that show
   Figure only_true;       ///< something true named and nothing untrue: one to three effects that show
   Figure not_there;       ///< something named that is not there and worth over half a noise floor
   Figure untrue;          ///< something named that is not there, whatever it is worth
+  Figure closure;         ///< median, where an effect shows
   Figure closed;          ///< closure of at least 0.7, where an effect shows
+  Figure misled;          ///< closure below 0, where an effect shows
+  Figure covered;         ///< 95 % intervals of right causes that hold the truth, one effect that shows
   Figure unknown_recall;  ///< unknown effects found where 5 % of the known ones are called so
   Figure unknown_area;    ///< area under that curve
   Figure wall_s;          ///< of a diagnosis, median
+  Figure longest_s;       ///< of a diagnosis
 };
 
 WorldFigures world_figures(const std::vector<const WorldVerdict*>& verdicts);

@@ -78,14 +78,46 @@ Figure area(const Leanings& l) {
   return f;
 }
 
-Figure wall_time(const Cases& cases) {
+Figure median_of(const char* key, const char* unit, const std::vector<double>& values) {
   Figure f;
-  f.key = "wall_s";
-  f.unit = "s";
+  f.key = key;
+  f.unit = unit;
+  f.cases = int(values.size());
+  if (f.cases) f.estimate = median(values);
+  return f;
+}
+
+std::vector<double> times_s(const Cases& cases) {
   std::vector<double> times;
   for (const WorldVerdict* v : cases) times.push_back(v->verdict.wall_s);
-  f.cases = int(times.size());
-  if (f.cases) f.estimate = median(times);
+  return times;
+}
+
+Figure longest(const Cases& cases) {
+  Figure f;
+  f.key = "longest_s";
+  f.unit = "s";
+  f.cases = int(cases.size());
+  for (const double s : times_s(cases)) f.estimate.value = std::max(f.estimate.value, s);
+  f.estimate.low = f.estimate.high = f.estimate.value;
+  return f;
+}
+
+// Of the numbers of right causes, each with its interval.
+Figure coverage(const Cases& cases) {
+  int n = 0, k = 0;
+  for (const WorldVerdict* v : cases) {
+    if (v->kind != "single" || !v->visible()) continue;
+    n += int(v->verdict.parameters.size());
+    k += int(std::count_if(v->verdict.parameters.begin(), v->verdict.parameters.end(),
+                           [](const ParameterVerdict& p) { return p.covered; }));
+  }
+  Figure f;
+  f.key = "covered";
+  f.unit = "share";
+  f.estimate = share(k, n);
+  f.hits = k;
+  f.cases = n;
   return f;
 }
 
@@ -127,7 +159,16 @@ WorldFigures world_figures(const Cases& cases) {
   f.right = share_of(
       cases, "right", [](const WorldVerdict& v) { return v.kind == "single" && v.visible(); },
       [](const WorldVerdict& v) { return v.verdict.right; });
+  f.told_apart = share_of(
+      cases, "told_apart",
+      [](const WorldVerdict& v) { return v.kind == "single" && v.visible() && v.verdict.distinguishable; },
+      [](const WorldVerdict& v) { return v.verdict.right; });
+  f.both = share_of(
+      cases, "both", [](const WorldVerdict& v) { return v.kind == "pair" && v.visible(); },
+      [](const WorldVerdict& v) { return v.verdict.right; });
   f.named = share_of(cases, "named", shows, [](const WorldVerdict& v) { return v.all_named(); });
+  f.in_set =
+      share_of(cases, "in_set", shows, [](const WorldVerdict& v) { return v.verdict.in_set || v.verdict.both_in_set; });
   f.only_true =
       share_of(cases, "only_true", shows, [](const WorldVerdict& v) { return v.names_true() && !v.names_untrue(); });
   f.not_there = share_of(
@@ -136,13 +177,22 @@ WorldFigures world_figures(const Cases& cases) {
   f.untrue = share_of(
       cases, "untrue", [](const WorldVerdict& v) { return !v.verdict.failed; },
       [](const WorldVerdict& v) { return v.names_untrue(); });
-  f.closed = share_of(
-      cases, "closed", [&](const WorldVerdict& v) { return shows(v) && v.verdict.diagnosis.closure.has_value(); },
-      [](const WorldVerdict& v) { return *v.verdict.diagnosis.closure >= kClosed; });
+  const auto closable = [&](const WorldVerdict& v) { return shows(v) && v.verdict.diagnosis.closure.has_value(); };
+  std::vector<double> closures;
+  for (const WorldVerdict* v : cases) {
+    if (closable(*v)) closures.push_back(*v->verdict.diagnosis.closure);
+  }
+  f.closure = median_of("closure", "ratio", closures);
+  f.closed = share_of(cases, "closed", closable,
+                      [](const WorldVerdict& v) { return *v.verdict.diagnosis.closure >= kClosed; });
+  f.misled =
+      share_of(cases, "misled", closable, [](const WorldVerdict& v) { return *v.verdict.diagnosis.closure < 0; });
+  f.covered = coverage(cases);
   const Leanings l = leanings(cases);
   f.unknown_recall = recall(l);
   f.unknown_area = area(l);
-  f.wall_s = wall_time(cases);
+  f.wall_s = median_of("wall_s", "s", times_s(cases));
+  f.longest_s = longest(cases);
   return f;
 }
 

@@ -9,21 +9,29 @@ struct Column {
   const char* key;
   const char* head;
   Figure WorldFigures::*figure;
+  bool by_group;  // in the tables of groups, too
 };
 
 constexpr Column kColumns[] = {
-    {"false_alarm", "false alarm", &WorldFigures::false_alarm},
-    {"pose_alarm", "for the poses", &WorldFigures::pose_alarm},
-    {"quiet_alarm", "in quiet worlds", &WorldFigures::quiet_alarm},
-    {"right", "first cause right", &WorldFigures::right},
-    {"named", "truth among the named", &WorldFigures::named},
-    {"only_true", "some truth, nothing untrue", &WorldFigures::only_true},
-    {"not_there", "named, not there, > 0.5 floors", &WorldFigures::not_there},
-    {"untrue", "named, not there", &WorldFigures::untrue},
-    {"closed", "closure >= 0.7", &WorldFigures::closed},
-    {"unknown_recall", "unknown found at 5 % known rejected", &WorldFigures::unknown_recall},
-    {"unknown_area", "area", &WorldFigures::unknown_area},
-    {"wall_s", "s a diagnosis", &WorldFigures::wall_s},
+    {"false_alarm", "false alarm", &WorldFigures::false_alarm, true},
+    {"pose_alarm", "the same, for the poses", &WorldFigures::pose_alarm, false},
+    {"quiet_alarm", "the same, in quiet worlds", &WorldFigures::quiet_alarm, false},
+    {"right", "first cause right", &WorldFigures::right, true},
+    {"told_apart", "the same, of what these runs tell apart", &WorldFigures::told_apart, true},
+    {"both", "both of two named, and nothing else", &WorldFigures::both, true},
+    {"named", "truth among the named", &WorldFigures::named, true},
+    {"in_set", "truth in the set", &WorldFigures::in_set, true},
+    {"only_true", "some truth named, nothing untrue", &WorldFigures::only_true, false},
+    {"not_there", "named, not there, > 0.5 floors", &WorldFigures::not_there, true},
+    {"untrue", "named, not there", &WorldFigures::untrue, false},
+    {"closure", "closure on held-out runs, median", &WorldFigures::closure, false},
+    {"closed", "closure >= 0.7", &WorldFigures::closed, true},
+    {"misled", "closure below 0", &WorldFigures::misled, false},
+    {"covered", "95 % intervals that hold the truth", &WorldFigures::covered, false},
+    {"unknown_recall", "unknown found at 5 % known rejected", &WorldFigures::unknown_recall, false},
+    {"unknown_area", "area under that curve", &WorldFigures::unknown_area, false},
+    {"wall_s", "s a diagnosis", &WorldFigures::wall_s, true},
+    {"longest_s", "s, the longest", &WorldFigures::longest_s, false},
 };
 
 std::string cell(const Figure& f) {
@@ -58,13 +66,16 @@ Json curves_of(const WorldScore& score, const std::string& engine) {
 
 std::string row(const std::string& which, const WorldFigures& f) {
   std::string text = fmt::format("| {} | {} |", which, f.cases);
-  for (const Column& c : kColumns) text += fmt::format(" {} |", cell(f.*c.figure));
+  for (const Column& c : kColumns) {
+    if (c.by_group) text += fmt::format(" {} |", cell(f.*c.figure));
+  }
   return text + "\n";
 }
 
 std::string head(const std::string& by) {
   std::string text = fmt::format("| {} | cases |", by), line = "|---|---|";
   for (const Column& c : kColumns) {
+    if (!c.by_group) continue;
     text += fmt::format(" {} |", c.head);
     line += "---|";
   }
@@ -109,7 +120,8 @@ std::string score_markdown(const WorldScore& score) {
       "does not drive.\n",
       score.name, score.answers_sha256.substr(0, 12), score.sealed ? "sealed" : "not sealed", score.all.cases,
       score.not_diagnosed, score.all.failed, score.all.undetectable, score.worlds_redrawn);
-  text += fmt::format("\n{}{}", head(""), row("all", score.all));
+  text += fmt::format("\n| figure | {} cases |\n|---|---|\n", score.all.cases);
+  for (const Column& c : kColumns) text += fmt::format("| {} | {} |\n", c.head, cell(score.all.*c.figure));
   for (const char* by : {"engine", "runs", "tracker", "driver", "robot", "effect"}) {
     const auto groups = score.groups.find(by);
     if (groups == score.groups.end()) continue;
