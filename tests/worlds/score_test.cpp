@@ -58,8 +58,8 @@ TEST(WorldScore, CountsWhatItSays) {
   EXPECT_EQ(f.pose_alarm.cases, 3);
   EXPECT_EQ(f.right.hits, 1);
   EXPECT_EQ(f.right.cases, 3);
-  EXPECT_EQ(f.told_apart.hits, 1);
-  EXPECT_EQ(f.told_apart.cases, 2);  // these runs mistake the wheelbase for a contact's width
+  EXPECT_EQ(f.plain.hits, 1);
+  EXPECT_EQ(f.plain.cases, 2);  // these runs mistake the wheelbase for a contact's width
   EXPECT_EQ(f.both.hits, 0);
   EXPECT_EQ(f.both.cases, 1);
   EXPECT_EQ(f.in_set.hits, 2);  // the wheelbase, and the three

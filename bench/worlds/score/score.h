@@ -19,6 +19,8 @@ struct WorldVerdict {
   double of_the_world = 0;                    ///< noise floors that the world is off by with nothing wrong in it
 
   bool visible() const { return !verdict.answer.undetectable_expected; }
+  /// At least one noise floor, and the diagnosis does not say that these runs mistake it for another effect.
+  bool is_plain() const;
   bool known() const { return kind == "single" || kind == "pair" || kind == "triple"; }
   /// Every effect of the case is among those that the first cause names.
   bool all_named() const;
@@ -36,7 +38,7 @@ struct WorldFigures {
   Figure pose_alarm;      ///< of those, something named that moves the robot by over half a noise floor
   Figure quiet_alarm;     ///< of cases without effect in worlds that are off by less than half a noise floor themselves
   Figure right;           ///< first cause exactly right, one effect that shows
-  Figure told_apart;      ///< the same where the diagnosis does not say that these runs mistake it for another
+  Figure plain;           ///< the same of effects that are plainly there (WorldVerdict::is_plain)
   Figure both;            ///< both of two effects named, and nothing else
   Figure named;           ///< truth among the named: one to three effects that show
   Figure in_set;          ///< truth in one member of the set: one to three effects that show

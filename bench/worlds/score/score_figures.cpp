@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kKnownRejected = 0.05;
 constexpr double kWorthNaming = 0.5;  // noise floors
+constexpr double kPlain = 1;          // noise floors
 constexpr double kClosed = 0.7;
 
 using Cases = std::vector<const WorldVerdict*>;
@@ -139,6 +140,10 @@ bool WorldVerdict::names_true() const {
                      [&](const auto& e) { return named.count(e.first) > 0; });
 }
 
+bool WorldVerdict::is_plain() const {
+  return visible() && verdict.distinguishable && verdict.answer.severity().value_or(kPlain) >= kPlain;
+}
+
 WorldFigures world_figures(const Cases& cases) {
   WorldFigures f;
   f.cases = int(cases.size());
@@ -159,9 +164,8 @@ WorldFigures world_figures(const Cases& cases) {
   f.right = share_of(
       cases, "right", [](const WorldVerdict& v) { return v.kind == "single" && v.visible(); },
       [](const WorldVerdict& v) { return v.verdict.right; });
-  f.told_apart = share_of(
-      cases, "told_apart",
-      [](const WorldVerdict& v) { return v.kind == "single" && v.visible() && v.verdict.distinguishable; },
+  f.plain = share_of(
+      cases, "plain", [](const WorldVerdict& v) { return v.kind == "single" && v.is_plain(); },
       [](const WorldVerdict& v) { return v.verdict.right; });
   f.both = share_of(
       cases, "both", [](const WorldVerdict& v) { return v.kind == "pair" && v.visible(); },

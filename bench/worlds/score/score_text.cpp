@@ -17,7 +17,7 @@ constexpr Column kColumns[] = {
     {"pose_alarm", "the same, for the poses", &WorldFigures::pose_alarm, false},
     {"quiet_alarm", "the same, in quiet worlds", &WorldFigures::quiet_alarm, false},
     {"right", "first cause right", &WorldFigures::right, true},
-    {"told_apart", "the same, of what these runs tell apart", &WorldFigures::told_apart, true},
+    {"plain", "the same, plainly there", &WorldFigures::plain, true},
     {"both", "both of two named, and nothing else", &WorldFigures::both, true},
     {"named", "truth among the named", &WorldFigures::named, true},
     {"in_set", "truth in the set", &WorldFigures::in_set, true},
