@@ -13,17 +13,24 @@ struct CountsBehind {
   /// Speed beyond the command along the cosine and the sine of the heading, rad/s: a slope pulls so on motors that give
   /// way. Zero where the course does not tell it from a gain.
   Eigen::Vector2d by_heading_radps = Eigen::Vector2d::Zero();
+  double share = 0;           ///< of the commanded angle by which it stays behind on the way,
+  double share_in_place = 0;  ///< and in turns in place
 };
 
-/// Least squares of how far a shaft is behind its commands on the commanded speed, angle and way, one, and the heading.
-/// All of a length, by encoder sample. `ahead_s`: cosine and sine of the heading over time, as heading_over_time()
-/// gives them. `step_rad`: between two counts.
+/// Where a robot heads, at one of its encoder samples.
+struct HeadingOverTime {
+  /// Cosine and sine of the heading summed over time: as counted, from where the truth begins.
+  Eigen::Vector2d ahead_s = Eigen::Vector2d::Zero();
+  bool in_place = false;  ///< its wheels are told to turn against each other
+};
+
+/// Least squares of how far a shaft is behind its commands on the commanded speed, one, the heading, and the commanded
+/// angle on the way and in turns in place: what holds a wheel back is another in these. All of a length, by encoder
+/// sample. `step_rad`: between two counts.
 CountsBehind counts_behind(const std::vector<double>& commanded_radps, const std::vector<double>& commanded_rad,
-                           const std::vector<double>& counted_rad, const std::vector<Eigen::Vector2d>& ahead_s,
+                           const std::vector<double>& counted_rad, const std::vector<HeadingOverTime>& heading,
                            double step_rad);
 
-/// Cosine and sine of a run's heading summed over time, at its encoder samples: as counted, from where the truth
-/// begins.
-std::vector<Eigen::Vector2d> heading_over_time(const RecordedRun& run, const RecordedRobot& robot);
+std::vector<HeadingOverTime> heading_over_time(const RecordedRun& run, const RecordedRobot& robot);
 
 }  // namespace umbsim

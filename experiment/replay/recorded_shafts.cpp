@@ -209,14 +209,14 @@ CommandLag measured_lag(const RecordedRun& run, const RecordedRobot& robot, int 
   constexpr double EncoderSample::*kCommand[] = {&EncoderSample::left_command_radps,
                                                  &EncoderSample::right_command_radps};
   constexpr std::int64_t EncoderSample::*kTicks[] = {&EncoderSample::left_ticks, &EncoderSample::right_ticks};
-  const std::vector<Eigen::Vector2d> ahead_s = heading_over_time(run, robot);
+  const std::vector<HeadingOverTime> heading = heading_over_time(run, robot);
   const double step_rad = 2 * M_PI / robot.ticks_per_revolution;
   std::vector<double> counted[2];
   double all_s = 0;
   for (int w = 0; w < 2; ++w) {
     for (const EncoderSample& s : run.encoders) counted[w].push_back(step_rad * double(s.*kTicks[w]));
     const std::vector<double> speed = obeyed(run.encoders, kCommand[w], {});
-    all_s += 0.5 * counts_behind(speed, commanded(run.encoders, speed, steps), counted[w], ahead_s, step_rad).lag_s;
+    all_s += 0.5 * counts_behind(speed, commanded(run.encoders, speed, steps), counted[w], heading, step_rad).lag_s;
   }
   if (all_s <= 0) return {0, all_s};
   const auto left_rad2 = [&](double dead_s) {

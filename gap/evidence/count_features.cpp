@@ -4,11 +4,31 @@
 
 #include "gap/evidence/model.h"
 #include "gap/hypotheses/parametrisations.h"
+#include "recording/counts_behind.h"
 
 namespace umbsim::gap {
 namespace {
 
-constexpr double kServo_s = 0.02;  // with which the response of a servo is found
+constexpr double kServo_s = 0.02;     // with which the response of a servo is found,
+constexpr double kFriction_s = 2e-4;  // and that to friction
+constexpr double kGravity_mps2 = 9.81;
+
+// Wheels that friction holds back by a speed, on the way or where they turn the robot in place.
+std::vector<std::array<double, 2>> held_back(const RecordedRun& run, const std::vector<HeadingOverTime>& heading,
+                                             std::vector<std::array<double, 2>> counts_rad, double by_radps,
+                                             bool in_place) {
+  std::array<double, 2> behind_rad{};
+  for (std::size_t i = 1; i < counts_rad.size(); ++i) {
+    const EncoderSample& s = run.encoders[i];
+    const std::array<double, 2> speed{s.left_command_radps, s.right_command_radps};
+    const double dt_s = s.time_s - run.encoders[i - 1].time_s;
+    for (std::size_t w = 0; w < 2; ++w) {
+      if (heading[i].in_place == in_place && speed[w] != 0) behind_rad[w] += std::copysign(by_radps * dt_s, speed[w]);
+      counts_rad[i][w] -= behind_rad[w];
+    }
+  }
+  return counts_rad;
+}
 
 }  // namespace
 
@@ -69,8 +89,18 @@ CountsColumns Model::alike_in_counts(std::size_t run) const {
   if (mass_kg() == 0) return columns;
   Effect servo = neutral_effect(find_effect("motor_response"));
   servo.values.numbers[index_of(*servo.info, "droop_radps_per_nm")] = kServo_s / motor_inertia_kgm2();
-  const auto turned = simulator_.commands(run, {servo});
-  columns.col(3) = per_unit(command_response(recording().runs[run], recording().robot, turned, step_rad_), kServo_s);
+  const auto response = [&](const std::vector<std::array<double, 2>>& turned) {
+    return per_unit(command_response(recording().runs[run], recording().robot, turned, step_rad_), 1);
+  };
+  columns.col(3) = response(simulator_.commands(run, {servo})) / kServo_s;
+  // What a load in proportion to the robot's weight slows the same servo by, whatever its speed.
+  const std::vector<HeadingOverTime> heading = heading_over_time(recording().runs[run], recording().robot);
+  const auto followed = simulator_.commands(run, {});
+  const double by_radps = kFriction_s * kGravity_mps2 / recording().robot.wheel_radius_m;
+  for (const bool in_place : {false, true}) {
+    const auto behind = held_back(recording().runs[run], heading, followed, by_radps, in_place);
+    columns.col(in_place ? 5 : 4) = response(behind) / kFriction_s;
+  }
   return columns;
 }
 

@@ -9,16 +9,17 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr int kCommon = 9;  // creep, slip, late readings, CountsColumns: of the robot
+constexpr int kCommon = 11;  // creep, slip, late readings, CountsColumns: of the robot
 constexpr int kCreepColumn = 0;
 constexpr int kSlipColumn = 1;
 constexpr int kLateColumn = 2;
-constexpr int kCountsColumn = 3;  // the first of these
-constexpr int kLagColumn = 2;     // among CountsColumns
-constexpr int kPerTracker = 4;    // marker (2), clock, frame: of each recording
-constexpr int kPerGroup = 7;      // legs, turns in place, rolling turns, heading and sideways along legs, leads (2)
-constexpr int kLeads = 5;         // the first of these
-constexpr int kOwn = 4;           // radii (2), clock, its rate
+constexpr int kCountsColumn = 3;    // the first of these
+constexpr int kLagColumn = 2;       // among CountsColumns
+constexpr int kFrictionColumn = 4;  // the first of two, among them
+constexpr int kPerTracker = 4;      // marker (2), clock, frame: of each recording
+constexpr int kPerGroup = 7;        // legs, turns in place, rolling turns, heading and sideways along legs, leads (2)
+constexpr int kLeads = 5;           // the first of these
+constexpr int kOwn = 4;             // radii (2), clock, its rate
 constexpr double kCreep = 0.01;
 constexpr double kUnexplained = 20;  // times the scatter between engines
 
@@ -45,7 +46,7 @@ struct Layout {
 Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
   Eigen::VectorXd sd(layout.size());
   sd.head(kCommon) << s.creep_across, s.slip_share, s.late_s, s.engine_gain, s.wheel_gain, s.lag_s, s.servo_s,
-      s.course_gain, s.course_gain;
+      s.rolling * s.servo_s, s.scrubbing * s.servo_s, s.course_gain, s.course_gain;
   for (std::size_t t = 0; t < layout.trackers.size(); ++t) {
     // A truth without noise is a simulator's.
     const double frame = layout.trackers[t]->truth_heading_sd_rad > 0 ? s.frame_rad : 0;
@@ -61,10 +62,16 @@ Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
   return sd;
 }
 
-// Wheels that turn as they are told, as those of this engine: other engines can do that, too. When they are read is
-// another matter.
-Eigen::VectorXd with_exact_servos(Eigen::VectorXd sd, const Scatter& s) {
-  sd.segment(kCountsColumn, CountsColumns::ColsAtCompileTime) *= s.same_servos;
+// Servos of four kinds: that give way under their load and under friction, under their load alone, that lag whatever
+// the load, and that turn as they are told. When counts are read is another matter.
+enum class Servo { rubs, gives_way, lags, exact };
+
+Eigen::VectorXd with_servos(Eigen::VectorXd sd, Servo servo, const Scatter& s) {
+  auto of_servos = sd.segment<CountsColumns::ColsAtCompileTime>(kCountsColumn);
+  const double lag_s = of_servos[kLagColumn];
+  if (servo == Servo::gives_way) of_servos.segment<2>(kFrictionColumn) *= s.same_servos;
+  if (servo == Servo::lags || servo == Servo::exact) of_servos *= s.same_servos;
+  if (servo == Servo::lags) of_servos[kLagColumn] = lag_s;
   return sd;
 }
 
@@ -96,10 +103,14 @@ std::vector<Eigen::VectorXd> by_mount(const Layout& layout, const Scatter& s) {
   return sds;
 }
 
-// Each of these, and each with servos that turn as they are told: whose contacts they are says nothing of servos.
-std::vector<Eigen::VectorXd> by_servos(std::vector<Eigen::VectorXd> sds, const Scatter& s) {
-  for (std::size_t i = 0, usual = sds.size(); i < usual; ++i) sds.push_back(with_exact_servos(sds[i], s));
-  return sds;
+// Each of these with each kind of servo: whose contacts they are says nothing of servos.
+std::vector<Eigen::VectorXd> by_servos(const std::vector<Eigen::VectorXd>& sds, const std::vector<Servo>& kinds,
+                                       const Scatter& s) {
+  std::vector<Eigen::VectorXd> all;
+  for (const Servo kind : kinds) {
+    for (const Eigen::VectorXd& sd : sds) all.push_back(with_servos(sd, kind, s));
+  }
+  return all;
 }
 
 struct LittleSlip {
@@ -165,6 +176,22 @@ Eigen::MatrixXd whitened(const TrackFilter& filter, const Eigen::MatrixXd& raw, 
   return white;
 }
 
+// What all runs share, under each of the priors that may hold (Nuisances::shared_sds).
+void believe(const Layout& layout, const Scatter& scatter, const Scatter& other, Nuisances& n) {
+  const std::vector<Servo> any{Servo::rubs, Servo::gives_way, Servo::lags, Servo::exact};
+  const std::vector<Eigen::VectorXd> mounts = by_mount(layout, scatter);
+  const auto add = [&](const std::vector<Eigen::VectorXd>& sds) {
+    n.shared_sds.insert(n.shared_sds.end(), sds.begin(), sds.end());
+  };
+  if (!layout.any_free()) add(by_servos(by_mount(layout, other), any, other));
+  n.wide = n.shared_sds.size();
+  add(by_servos(mounts, any, scatter));
+  n.of_another = n.shared_sds.size();
+  if (layout.any_free()) return;
+  for (const Eigen::VectorXd& sd : by_servos(mounts, {Servo::gives_way, Servo::exact}, scatter))
+    n.shared_sds.push_back(with_same_contacts(sd, layout, scatter));
+}
+
 }  // namespace
 
 Scatter between_engines(Scatter scatter) {
@@ -182,12 +209,8 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   const RunGroups& groups = layout.groups;
   const Scatter other = layout.any_free() ? scatter : between_engines(scatter);
   Nuisances n;
-  if (!layout.any_free()) n.shared_sds = by_servos(by_mount(layout, other), other);
-  n.wide = n.shared_sds.size();
-  const std::vector<Eigen::VectorXd> little = by_servos(by_mount(layout, scatter), scatter);
-  n.shared_sds.insert(n.shared_sds.end(), little.begin(), little.end());
-  n.of_another = n.shared_sds.size();
-  n.usual_sd = little[little.size() / 2];
+  believe(layout, scatter, other, n);
+  n.usual_sd = with_servos(shared_sd(layout, scatter), Servo::exact, scatter);
   n.lead_s = other.lead_s;
   for (std::size_t t = 0; t < layout.trackers.size(); ++t) {
     if (may_be_exact(layout.trackers[t])) n.markers.push_back(layout.tracker(t));
@@ -195,9 +218,6 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   n.engine_sd = Eigen::VectorXd::Zero(layout.size());
   n.engine_sd.head(layout.tracker(0)) = n.shared_sds.front().head(layout.tracker(0));
   n.unexplained_sd = Eigen::VectorXd::Zero(layout.size());
-  if (!layout.any_free()) {
-    for (const Eigen::VectorXd& sd : little) n.shared_sds.push_back(with_same_contacts(sd, layout, scatter));
-  }
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
     const Eigen::Index first = layout.group(g);
     // Between turns in place only the moments at which a turn begins and ends roll in an arc: engines differ there.

@@ -33,14 +33,16 @@ struct Scatter {
   double creep_across = 0.03;     ///< sideways creep of the tyres
   double slip_share = 0.2;        ///< displacement by slip under jolts, in noise floors
   double gain = 4e-4;             ///< of counts over commands
-  double engine_gain = 3e-3;      ///< of the same, alike in all runs and in both wheels: servos droop under their load
+  double engine_gain = 1e-3;      ///< of the same, alike in all runs and in both wheels: a speed control in proportion
   double wheel_gain = 7e-4;       ///< of the same, of one wheel against the other
   double course_gain = 1.5e-3;  ///< of the same as the heading from the start goes, cosine and sine, mirrored cw to ccw
   double lag_s = 0.02;          ///< of counts behind commands, alike in all runs: no servo follows at once
-  double servo_s = 0.02;        ///< time constant of servos that give way under their load
   double run_lag_s = 0.003;     ///< the same from run to run
-  double same_engine = 0.1;     ///< share of what engines differ by that is left where both are the same,
-  double same_servos = 0.03;    ///< and of what their servos do
+  double servo_s = 0.02;        ///< time constant of servos that give way under their load
+  double rolling = 0.01;  ///< friction that these give way under on the way (casters, gears), as a share of the weight,
+  double scrubbing = 0.03;    ///< and in turns in place, where wheels scrub
+  double same_engine = 0.1;   ///< share of what engines differ by that is left where both are the same,
+  double same_servos = 0.03;  ///< and of what their servos do
 };
 
 /// The same where another engine made the runs, as measured between four of them (docs/worlds.md).
@@ -49,9 +51,9 @@ Scatter between_engines(Scatter scatter);
 /// Columns that are fitted always and credited to nobody. Per run, whitened; outer index: run.
 struct Nuisances {
   /// First `wide`, if an engine made the recording that differs from this one by as much as engines do: with a tracker
-  /// that was mounted by hand and, where its header does not speak against it, with an exact one; both again with
-  /// servos that turn as they are told. Up to `of_another` the same, if engines, or a robot, differ by little. Then, if
-  /// this engine made it, which runs show by how little they stray.
+  /// that was mounted by hand and, where its header does not speak against it, with an exact one; both with each kind
+  /// of servo. Up to `of_another` the same, if engines, or a robot, differ by little. Then, if this engine made it,
+  /// which runs show by how little they stray, with servos that give way or turn as they are told.
   std::vector<Eigen::VectorXd> shared_sds;
   std::size_t wide = 0;
   std::size_t of_another = 0;
@@ -76,9 +78,10 @@ using Drive = std::function<std::vector<std::vector<Pose2>>(const std::vector<Ef
 bool tracker_is_free(const Recording& recording);
 
 /// Of counts against commands, per unit of what may be alike in all runs: a gain of both wheels, one of the left wheel
-/// against the right one, a lag (s), a servo's time constant (s), a gain that goes with the cosine and one with the
-/// sine of the heading from the start, to the side of the turns. Rows in standard deviations.
-using CountsColumns = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+/// against the right one, a lag (s), a servo's time constant (s), the same times friction on the way and in turns in
+/// place (s), a gain that goes with the cosine and one with the sine of the heading from the start, to the side of
+/// the turns. Rows in standard deviations.
+using CountsColumns = Eigen::Matrix<double, Eigen::Dynamic, 8>;
 
 /// `floor_m`: the noise floor, for how much slip is nobody's. `counts`: of each run, below its tracks' rows.
 Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFilter>& filters, const Scatter& scatter,

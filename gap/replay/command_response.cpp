@@ -16,6 +16,7 @@ struct Wheel {
   double asked_rad = 0;
   double rolled_rad = 0;
   CountsBehind behind;
+  Eigen::Vector2d speed_radps = Eigen::Vector2d::Zero();  // mean size of the command on the way, and in turns in place
 };
 
 // Way of a signal forwards and backwards, but for what it trembles over less than a width.
@@ -39,11 +40,12 @@ class Way {
 
 // Gain from the whole way: a controller that holds the robot at an edge between two counts makes them jump a step to
 // and fro, which is no rotation.
-Wheel wheel_features(const std::vector<EncoderSample>& s, const std::vector<Eigen::Vector2d>& ahead_s,
+Wheel wheel_features(const std::vector<EncoderSample>& s, const std::vector<HeadingOverTime>& heading,
                      double EncoderSample::*command, const std::vector<std::array<double, 2>>& counts, std::size_t w,
                      double step_rad) {
   std::vector<double> speed{s.front().*command}, commanded{0}, counted{counts.front()[w]};
   double rolled = 0;
+  Eigen::Vector2d moved_rad = Eigen::Vector2d::Zero(), moving_s = Eigen::Vector2d::Zero();
   Way asked(step_rad);
   Way turned(step_rad);
   for (std::size_t i = 1; i < s.size(); ++i) {
@@ -52,25 +54,30 @@ Wheel wheel_features(const std::vector<EncoderSample>& s, const std::vector<Eige
     commanded.push_back(commanded.back() + speed.back() * dt);
     counted.push_back(counts[i][w]);
     rolled += std::abs(speed.back()) * dt;
+    moved_rad[heading[i].in_place] += std::abs(speed.back()) * dt;
+    if (speed.back() != 0) moving_s[heading[i].in_place] += dt;
     asked.to(commanded.back());
     turned.to(counts[i][w] - counts[0][w]);
   }
   return {asked.way() > 0 ? turned.way() / asked.way() - 1 : 0, asked.way(), rolled,
-          counts_behind(speed, commanded, counted, ahead_s, step_rad)};
+          counts_behind(speed, commanded, counted, heading, step_rad),
+          moved_rad.cwiseQuotient(moving_s.cwiseMax(1e-9))};
 }
 
 }  // namespace
 
 CommandResponse command_response(const RecordedRun& run, const RecordedRobot& robot,
                                  const std::vector<std::array<double, 2>>& counts_rad, double step_rad) {
-  const std::vector<Eigen::Vector2d> ahead_s = heading_over_time(run, robot);
+  const std::vector<HeadingOverTime> heading = heading_over_time(run, robot);
   const auto& s = run.encoders;
-  const Wheel left = wheel_features(s, ahead_s, &EncoderSample::left_command_radps, counts_rad, 0, step_rad);
-  const Wheel right = wheel_features(s, ahead_s, &EncoderSample::right_command_radps, counts_rad, 1, step_rad);
+  const Wheel left = wheel_features(s, heading, &EncoderSample::left_command_radps, counts_rad, 0, step_rad);
+  const Wheel right = wheel_features(s, heading, &EncoderSample::right_command_radps, counts_rad, 1, step_rad);
   const double least_rad = std::min(left.asked_rad, right.asked_rad);
   const double duration_s = s.back().time_s - s.front().time_s;
   CommandResponse response{true, left.gain, right.gain, (left.behind.lag_s + right.behind.lag_s) / 2};
   response.by_heading_radps = (left.behind.by_heading_radps + right.behind.by_heading_radps) / 2;
+  for (const Wheel& w : {left, right})
+    response.behind_radps += Eigen::Vector2d(w.behind.share, w.behind.share_in_place).cwiseProduct(w.speed_radps) / 2;
   response.gain_sd = least_rad > 0 ? kStepsUnsure * step_rad / least_rad : 0;
   response.by_heading_sd_radps = kStepsUnsure * step_rad / (duration_s / 2);  // no heading takes more than half of it
   response.speed_radps = (left.rolled_rad + right.rolled_rad) / 2 / duration_s;

@@ -17,6 +17,9 @@ struct CommandResponse {
   /// Wheel speed beyond the command, mean of both, along the cosine and the sine of the heading: a slope pulls so on
   /// motors that give way.
   Eigen::Vector2d by_heading_radps = Eigen::Vector2d::Zero();
+  /// Speed by which wheels stay behind, mean of both, on the way and in turns in place: friction holds motors back so
+  /// that give way.
+  Eigen::Vector2d behind_radps = Eigen::Vector2d::Zero();
   double gain_sd = 0;              ///< of the gains, from the width of the encoder's steps
   double by_heading_sd_radps = 0;  ///< the same of by_heading_radps
   double speed_radps = 0;          ///< of the wheels, mean over the run

@@ -55,8 +55,8 @@ TEST(MountedTracker, IsFoundWhateverTheRobotDoes) {
   for (const std::vector<Effect>& effects : {std::vector<Effect>{}, toed, wide}) {
     const Recording recording = campaign(effects, 55);
     EXPECT_EQ(mount_of(recording).norm(), 0) << "exact";
-    EXPECT_EQ(Subject(recording).model.nuisance_sds().size(), 6u)
-        << "another engine's, by much or by little, with servos of its own or exact ones, or this one's";
+    EXPECT_EQ(Subject(recording).model.nuisance_sds().size(), 10u)
+        << "another engine's, by much or by little, with four kinds of servos, or this one's with two";
     for (const Pose2& X_BM : {kByHand, kTurned}) {
       const Eigen::Vector3d found = mount_of(mounted(recording, X_BM));
       std::cout << fmt::format("{:.2f} {:.2f} mm, {:.2f} mrad\n", 1e3 * found[0], 1e3 * found[1], 1e3 * found[2]);

@@ -31,12 +31,13 @@ double misfit_of(const Recording& recording, const char* what) {
 Recording faster_by_heading(Recording recording, double along_radps, double across_radps, bool mirrored) {
   for (RecordedRun& run : recording.runs) {
     const double side = mirrored && run.direction == "cw" ? -1 : 1;
-    const auto ahead_s = heading_over_time(run, recording.robot);
+    const auto heading = heading_over_time(run, recording.robot);
     const double start_rad = run.truth.front().X_WB.theta_rad;
     const Eigen::Vector2d ahead(std::cos(start_rad), std::sin(start_rad)), aside(-ahead[1], ahead[0]);
     for (std::size_t i = 1; i < run.encoders.size(); ++i) {
       EncoderSample& s = run.encoders[i];
-      const Eigen::Vector2d way = (ahead_s[i] - ahead_s[i - 1]) / (s.time_s - run.encoders[i - 1].time_s);
+      const Eigen::Vector2d way =
+          (heading[i].ahead_s - heading[i - 1].ahead_s) / (s.time_s - run.encoders[i - 1].time_s);
       const double faster = along_radps * way.dot(ahead) + side * across_radps * way.dot(aside);
       s.left_command_radps -= faster;
       s.right_command_radps -= faster;

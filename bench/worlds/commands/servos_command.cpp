@@ -26,7 +26,7 @@ double median_size(const std::vector<ServoResponse>& responses, Eigen::Index fig
 
 std::string cell(const std::vector<ServoResponse>& responses, Eigen::Index figure) {
   const bool lag = figure == kServoLag;
-  const double unit = lag ? 1000 : 100;
+  const double unit = lag || figure >= kServoFriction ? 1000 : 100;
   const int digits = lag ? 0 : 3;
   return fmt::format("{:.{}f} ({:.{}f})", unit * root_mean_square(responses, figure), digits,
                      unit * median_size(responses, figure), digits);
@@ -41,8 +41,11 @@ void servos(const std::vector<std::string>& folders) {
     for (const auto& [engine, responses] : more.by_engine)
       by_engine[engine].insert(by_engine[engine].end(), responses.begin(), responses.end());
   }
-  fmt::print("| engine | cases | both wheels, % | left over right, % | lag, ms | along the course, % | across, % |\n");
-  fmt::print("|---|---|---|---|---|---|---|\n");
+  fmt::print(
+      "| engine | cases | both wheels, % | left over right, % | lag, ms | along the course, % | across, % | friction "
+      "on the way, ms | in place, "
+      "ms |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|---|\n");
   for (const auto& [engine, responses] : by_engine) {
     fmt::print("| {} | {} |", engine, responses.size());
     for (Eigen::Index figure = 0; figure < ServoResponse::RowsAtCompileTime; ++figure)

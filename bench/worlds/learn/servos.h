@@ -11,9 +11,11 @@ namespace umbsim::worlds {
 
 /// How the counts of one case follow their commands beyond what this simulator's motors do, mean of its runs: gain of
 /// both wheels; of left over right; lag, s; speed beyond the command as the cosine of the heading from the start goes,
-/// over the mean speed; the same of the sine, to the side of the turns.
-using ServoResponse = Eigen::Matrix<double, 5, 1>;
+/// over the mean speed; the same of the sine, to the side of the turns; friction on the way and in turns in place, each
+/// as a share of the weight, times the servo's time constant, s.
+using ServoResponse = Eigen::Matrix<double, 7, 1>;
 inline constexpr Eigen::Index kServoLag = 2;
+inline constexpr Eigen::Index kServoFriction = 5;
 
 struct ServoResponses {
   std::map<std::string, std::vector<ServoResponse>> by_engine;
