@@ -174,8 +174,8 @@ Hypothesis on_soft_tyres(Hypothesis hypothesis) {
 
 constexpr double kGivesWay_s = 0.01;  // typical time constant of a speed control in proportion
 
-// A slope or a caster pulls on motors, which turn faster or slower than they are told if they give way: as much as they
-// lag when the robot speeds up. Counts tell pull times droop, in which they are linear, and the lag tells the droop.
+// A slope or a drag pulls on motors, which turn otherwise than they are told if they give way: as much as they lag when
+// the robot speeds up. Counts tell pull times droop, in which they are linear, and the lag tells the droop.
 Hypothesis on_motors_that_give_way(Hypothesis hypothesis, double motor_inertia_kgm2) {
   hypothesis.variant += ", motors that give way";
   const Eigen::Index own = Eigen::Index(hypothesis.parameters.size());
@@ -278,10 +278,6 @@ std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revol
       from_start(direct("caster_swivel", "askew", {{"initial_angle_rad", 0, 0.3, 2, -3.14, 3.14}},
                         {{"trail_m", 0.03}, {"friction_nm", 0.1}}),
                  1.5),
-      on_motors_that_give_way(
-          from_start(direct("caster_swivel", "friction", {positive("friction_nm", 0.1, 0.5)}, {{"trail_m", 0.03}}),
-                     0.3),
-          motor_inertia_kgm2),
       direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.04)}),
       drag_beside_middle("left of it", 0.05),
       drag_beside_middle("right of it", -0.05),
