@@ -25,12 +25,13 @@ struct HeadingOverTime {
 };
 
 /// Least squares of how far a shaft is behind its commands on the commanded speed, one, the heading, and the commanded
-/// angle on the way and in turns in place: what holds a wheel back is another in these. All of a length, by encoder
-/// sample. `step_rad`: between two counts.
+/// angle on the way and in turns in place, where other friction holds a wheel back. All of a length, by encoder sample.
+/// `step_rad`: between two counts.
 CountsBehind counts_behind(const std::vector<double>& commanded_radps, const std::vector<double>& commanded_rad,
                            const std::vector<double>& counted_rad, const std::vector<HeadingOverTime>& heading,
                            double step_rad);
 
+/// Of each encoder sample of a run.
 std::vector<HeadingOverTime> heading_over_time(const RecordedRun& run, const RecordedRobot& robot);
 
 }  // namespace umbsim

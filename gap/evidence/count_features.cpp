@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kServo_s = 0.02;     // with which the response of a servo is found,
 constexpr double kFriction_s = 2e-4;  // and that to friction
-constexpr double kGravity_mps2 = 9.81;
 
 // Wheels that friction holds back by a speed, on the way or where they turn the robot in place.
 std::vector<std::array<double, 2>> held_back(const RecordedRun& run, const std::vector<HeadingOverTime>& heading,
@@ -96,7 +95,7 @@ CountsColumns Model::alike_in_counts(std::size_t run) const {
   // What a load in proportion to the robot's weight slows the same servo by, whatever its speed.
   const std::vector<HeadingOverTime> heading = heading_over_time(recording().runs[run], recording().robot);
   const auto followed = simulator_.commands(run, {});
-  const double by_radps = kFriction_s * kGravity_mps2 / recording().robot.wheel_radius_m;
+  const double by_radps = slowed_radps(kFriction_s, recording().robot);
   for (const bool in_place : {false, true}) {
     const auto behind = held_back(recording().runs[run], heading, followed, by_radps, in_place);
     columns.col(in_place ? 5 : 4) = response(behind) / kFriction_s;

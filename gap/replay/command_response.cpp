@@ -10,6 +10,7 @@ namespace {
 
 // Steps by which the way over the turns of a course, eight to sixteen, is unsure: each end lies anywhere in one.
 constexpr double kStepsUnsure = 1.5;
+constexpr double kGravity_mps2 = 9.81;
 
 struct Wheel {
   double gain = 0;
@@ -44,7 +45,6 @@ Wheel wheel_features(const std::vector<EncoderSample>& s, const std::vector<Head
                      double EncoderSample::*command, const std::vector<std::array<double, 2>>& counts, std::size_t w,
                      double step_rad) {
   std::vector<double> speed{s.front().*command}, commanded{0}, counted{counts.front()[w]};
-  double rolled = 0;
   Eigen::Vector2d moved_rad = Eigen::Vector2d::Zero(), moving_s = Eigen::Vector2d::Zero();
   Way asked(step_rad);
   Way turned(step_rad);
@@ -53,13 +53,12 @@ Wheel wheel_features(const std::vector<EncoderSample>& s, const std::vector<Head
     speed.push_back(s[i].*command);
     commanded.push_back(commanded.back() + speed.back() * dt);
     counted.push_back(counts[i][w]);
-    rolled += std::abs(speed.back()) * dt;
     moved_rad[heading[i].in_place] += std::abs(speed.back()) * dt;
     if (speed.back() != 0) moving_s[heading[i].in_place] += dt;
     asked.to(commanded.back());
     turned.to(counts[i][w] - counts[0][w]);
   }
-  return {asked.way() > 0 ? turned.way() / asked.way() - 1 : 0, asked.way(), rolled,
+  return {asked.way() > 0 ? turned.way() / asked.way() - 1 : 0, asked.way(), moved_rad.sum(),
           counts_behind(speed, commanded, counted, heading, step_rad),
           moved_rad.cwiseQuotient(moving_s.cwiseMax(1e-9))};
 }
@@ -82,6 +81,10 @@ CommandResponse command_response(const RecordedRun& run, const RecordedRobot& ro
   response.by_heading_sd_radps = kStepsUnsure * step_rad / (duration_s / 2);  // no heading takes more than half of it
   response.speed_radps = (left.rolled_rad + right.rolled_rad) / 2 / duration_s;
   return response;
+}
+
+double slowed_radps(double friction_s, const RecordedRobot& robot) {
+  return friction_s * kGravity_mps2 / robot.wheel_radius_m;
 }
 
 std::vector<std::array<double, 2>> counted_rad(const RecordedRun& run, const RecordedRobot& robot) {

@@ -17,7 +17,7 @@ struct CommandResponse {
   /// Wheel speed beyond the command, mean of both, along the cosine and the sine of the heading: a slope pulls so on
   /// motors that give way.
   Eigen::Vector2d by_heading_radps = Eigen::Vector2d::Zero();
-  /// Speed by which wheels stay behind, mean of both, on the way and in turns in place: friction holds motors back so
+  /// Speed by which wheels stay behind, mean of both, on the way and in turns in place: so friction holds back motors
   /// that give way.
   Eigen::Vector2d behind_radps = Eigen::Vector2d::Zero();
   double gain_sd = 0;              ///< of the gains, from the width of the encoder's steps
@@ -29,6 +29,10 @@ struct CommandResponse {
 /// two counts, as wide as they really are.
 CommandResponse command_response(const RecordedRun& run, const RecordedRobot& robot,
                                  const std::vector<std::array<double, 2>>& counts_rad, double step_rad);
+
+/// Speed by which friction slows a wheel whose servo gives way, rad/s. `friction_s`: share c of the robot's weight
+/// times the servo's time constant: by c g it is pulled back as an acceleration would.
+double slowed_radps(double friction_s, const RecordedRobot& robot);
 
 /// Unit vectors (columns) along the course of a run, its heading at the start, and across it, to the side of its turns:
 /// what a driver does along a course is mirrored from cw to ccw, what the world does is not.

@@ -77,6 +77,35 @@ TEST(Servos, ThatGoWithTheCourseAreNoSlope) {
   EXPECT_GT(misfit_of(faster_by_heading(recording, 0, usual, false), "across, by the world"), plain + 20);
 }
 
+// Friction in turns in place holds wheels back there, and is read neither from the way nor as a slope.
+TEST(Servos, ThatAreHeldBackInTurnsAreNoSlope) {
+  constexpr double kBehind_radps = 0.03;
+  const Recording recording = campaign({}, 60);
+  const RecordedRobot& robot = recording.robot;
+  for (const RecordedRun& run : recording.runs) {
+    if (run.turn_radius_m) continue;
+    std::vector<std::array<double, 2>> angles{{0, 0}};
+    for (std::size_t i = 1; i < run.encoders.size(); ++i) {
+      const EncoderSample& s = run.encoders[i];
+      const double dt_s = s.time_s - run.encoders[i - 1].time_s;
+      const std::array<double, 2> told{s.left_command_radps, s.right_command_radps};
+      angles.push_back(angles.back());
+      for (std::size_t w = 0; w < 2; ++w) {
+        const double behind = told[0] * told[1] < 0 ? std::copysign(kBehind_radps, told[w]) : 0;
+        angles.back()[w] += (told[w] - behind) * dt_s;
+      }
+    }
+    const CommandResponse r = command_response(run, robot, angles, 2 * M_PI / robot.ticks_per_revolution);
+    std::cout << fmt::format("{}: behind by {:.5f} and {:.5f}, along {:.5f} and {:.5f} rad/s\n", run.id,
+                             r.behind_radps[0], r.behind_radps[1], r.by_heading_radps[0], r.by_heading_radps[1]);
+    // In the ramps of a turn a speed goes with no angle: for each wheel the heading takes a tenth, and gives it back in
+    // the mean of both.
+    EXPECT_NEAR(r.behind_radps[1], kBehind_radps, 0.15 * kBehind_radps);
+    EXPECT_NEAR(r.behind_radps[0], 0, 0.01 * kBehind_radps);
+    EXPECT_LT(r.by_heading_radps.norm(), 0.01 * kBehind_radps);
+  }
+}
+
 TEST(Servos, ThatAreSlowerThanAnyAreNamed) {
   const Subject p(campaign({effect("motor_response", {{"lag_s", 0.15}})}, 59));
   const Diagnosis d = p.diagnosed();

@@ -42,7 +42,7 @@ TEST(WorldScore, CountsWhatItSays) {
   v[2].verdict.diagnosis.closure = 0.9;
   v[3].verdict.diagnosis.closure = 0.5;
   v[4].verdict.distinguishable = false;
-  v[4].verdict.in_set = v[6].verdict.both_in_set = true;
+  v[4].verdict.both_in_set = v[6].verdict.both_in_set = true;
   v[4].verdict.diagnosis.closure = -0.2;
   v[2].verdict.parameters = {{"bump", "height_m", 0.01, 0.011, 0.1, true}, {"bump", "x_m", 1, 1.1, 0.1, false}};
   v.push_back(verdict("single", "wear", "none"));

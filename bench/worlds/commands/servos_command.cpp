@@ -42,9 +42,8 @@ void servos(const std::vector<std::string>& folders) {
       by_engine[engine].insert(by_engine[engine].end(), responses.begin(), responses.end());
   }
   fmt::print(
-      "| engine | cases | both wheels, % | left over right, % | lag, ms | along the course, % | across, % | friction "
-      "on the way, ms | in place, "
-      "ms |\n");
+      "| engine | cases | both wheels, % | left over right, % | lag, ms | along the course, % | across, % | "
+      "friction on the way, ms | in place, ms |\n");
   fmt::print("|---|---|---|---|---|---|---|---|---|\n");
   for (const auto& [engine, responses] : by_engine) {
     fmt::print("| {} | {} |", engine, responses.size());

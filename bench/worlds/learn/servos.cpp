@@ -18,8 +18,6 @@
 namespace umbsim::worlds {
 namespace {
 
-constexpr double kGravity_mps2 = 9.81;
-
 // A slope pulls on motors that give way. Of what the catalogue does not have nobody knows.
 bool may_show_in_counts(const std::string& effect) {
   const std::vector<EffectInfo>& all = catalogue();
@@ -45,7 +43,7 @@ std::optional<ServoResponse> response_of(const GapRecordings& recordings, const 
   beyond << (left + right) / 2, left - right, measured.lag_s - foretold.lag_s,
       gap::course_axes(run).transpose() * (measured.by_heading_radps - foretold.by_heading_radps) /
           foretold.speed_radps,
-      (measured.behind_radps - foretold.behind_radps) * recording.robot.wheel_radius_m / kGravity_mps2;
+      (measured.behind_radps - foretold.behind_radps) / gap::slowed_radps(1, recording.robot);
   return beyond;
 }
 

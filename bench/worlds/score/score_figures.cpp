@@ -171,8 +171,7 @@ WorldFigures world_figures(const Cases& cases) {
       cases, "both", [](const WorldVerdict& v) { return v.kind == "pair" && v.visible(); },
       [](const WorldVerdict& v) { return v.verdict.right; });
   f.named = share_of(cases, "named", shows, [](const WorldVerdict& v) { return v.all_named(); });
-  f.in_set =
-      share_of(cases, "in_set", shows, [](const WorldVerdict& v) { return v.verdict.in_set || v.verdict.both_in_set; });
+  f.in_set = share_of(cases, "in_set", shows, [](const WorldVerdict& v) { return v.verdict.both_in_set; });
   f.only_true =
       share_of(cases, "only_true", shows, [](const WorldVerdict& v) { return v.names_true() && !v.names_untrue(); });
   f.not_there = share_of(
