@@ -13,9 +13,14 @@
 #include "experiment/output/result_folder.h"
 #include "gap/noise/clock.h"
 #include "gap/replay/remembered.h"
+#include "recording/thinned.h"
 
 namespace umbsim {
 namespace {
+
+// Readings of a track per second that a diagnosis uses. Errors of a track go on for a second or so, and nothing that is
+// looked for is faster than a few hertz: more readings tell no more, and take memory and time.
+constexpr double kTrack_hz = 30;
 
 // Folders of one name are told apart by a number.
 std::vector<std::string> names_of(const std::vector<std::string>& folders) {
@@ -37,7 +42,7 @@ GapRecordings::GapRecordings(const std::vector<std::string>& folders, const std:
   std::vector<Recording> recordings;
   for (std::size_t i = 0; i < folders.size(); ++i) {
     auto [given, limits] = intake::take_in(folders[i]);
-    recordings.push_back(gap::followed_through(given, limits));
+    recordings.push_back(thinned(gap::followed_through(given, limits), kTrack_hz));
     for (std::string& limit : limits)
       limits_.push_back(folders.size() > 1 ? names[i] + ": " + limit : std::move(limit));
   }
