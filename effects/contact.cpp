@@ -21,6 +21,8 @@ void apply(const TyreCreep& effect, Rig& rig) {
   for (Wheel& wheel : rig.robot.wheels) {
     wheel.creep_along = effect.along;
     wheel.creep_across = effect.across;
+    wheel.slip_along_mps_per_n = effect.slip_along_mps_per_n;
+    wheel.slip_across_mps_per_n = effect.slip_across_mps_per_n;
   }
 }
 

@@ -16,18 +16,21 @@ struct ContactPatch {
 };
 void apply(const ContactPatch& effect, Rig& rig);
 
-/// Slip in proportion to traction before sliding: slip = creep * F / N.
+/// Slip in proportion to traction before sliding: slip = creep * F / N of the way that a wheel rolls, and a speed per
+/// force at any speed, also of a wheel that stands (the contacts of ODE and Gazebo: slip1, slip2).
 struct TyreCreep {
   double along = 0;
   double across = 0;
+  double slip_along_mps_per_n = 0;
+  double slip_across_mps_per_n = 0;
 };
 void apply(const TyreCreep& effect, Rig& rig);
 
 /// The first caster is a wheel that swivels behind a trail, instead of a ball.
 struct CasterSwivel {
-  double trail_m = 0;             ///< 0: as in the URDF
-  double friction_nm = 0;         ///< of the swivel bearing
-  double initial_angle_rad = 0;   ///< 0: trailing
+  double trail_m = 0;            ///< 0: as in the URDF
+  double friction_nm = 0;        ///< of the swivel bearing
+  double initial_angle_rad = 0;  ///< 0: trailing
 };
 void apply(const CasterSwivel& effect, Rig& rig);
 

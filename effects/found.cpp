@@ -33,7 +33,8 @@ constexpr UnitPair kUnits[] = {{"1", "%", 100},
                                {"N s", "N s", 1},
                                {"rad/s", "rad/s", 1},
                                {"rad/s per N m", "rad/s per N m", 1},
-                               {"m/N", "µm/N", 1e6}};
+                               {"m/N", "µm/N", 1e6},
+                               {"m/s per N", "mm/s per N", 1e3}};
 
 const EffectParameter& parameter_of(const EffectInfo& info, const std::string& name) {
   for (const EffectParameter& p : info.parameters) {

@@ -16,12 +16,13 @@ bool same(const Inertial& a, const Inertial& b) {
 
 bool same(const Wheel& a, const Wheel& b) {
   const auto& [joint, centre, axis, radius, width, eccentricity, phase, mass, spin, transverse, effort, compliance,
-               along, across, patch, along_joint, slide, suspension] = a;
+               along, across, slip_along, slip_across, patch, along_joint, slide, suspension] = a;
   return joint == b.joint && centre == b.centre_m && axis == b.axis && radius == b.radius_m && width == b.width_m &&
          eccentricity == b.eccentricity_m && (eccentricity == 0 || phase == b.eccentricity_rad) && mass == b.mass_kg &&
          spin == b.spin_inertia_kgm2 && transverse == b.transverse_inertia_kgm2 && effort == b.effort_limit_nm &&
          compliance == b.compliance_mpn && along == b.creep_along && across == b.creep_across &&
-         patch == b.patch_width_m && along_joint == b.along_joint_m && slide == b.slide && suspension == b.suspension;
+         slip_along == b.slip_along_mps_per_n && slip_across == b.slip_across_mps_per_n && patch == b.patch_width_m &&
+         along_joint == b.along_joint_m && slide == b.slide && suspension == b.suspension;
 }
 
 bool same(const Caster& a, const Caster& b) {

@@ -130,17 +130,18 @@ void World::State::add_contact_rows(const Contact& c, const DofVector& u) {
 }
 
 // Creep before sliding is a speed proportional to rolling speed and traction ratio: slip = C v F / N (linear theory,
-// e.g. Johnson, Contact Mechanics, 8.3), hence a compliance C v / N of the friction rows. Carpet carries the robot in
+// e.g. Johnson, Contact Mechanics, 8.3), hence a compliance C v / N of the friction rows. Slip at any speed is a
+// compliance of its own: a speed per force, as engines have it whose friction is a damper. Carpet carries the robot in
 // proportion to the distance that it rolls.
 TyreSlip World::State::tyre_slip(const Support& s) const {
   if (s.wheel < 0) return {};
   const Wheel& w = robot.wheels[s.wheel];
-  if (w.creep_along == 0 && w.creep_across == 0 && floor.drift_x == 0 && floor.drift_y == 0) return {};
+  if (!w.gives_way() && floor.drift_x == 0 && floor.drift_y == 0) return {};
   const double speed = std::abs(body.velocity()[6 + s.wheel]) * w.radius_m;
   const double rolled = (std::abs(body.velocity()[6]) + std::abs(body.velocity()[7])) / 2 * w.radius_m;  // by the robot
   const double load_n = creeping_load(s);
-  return {w.creep_along * speed / load_n,
-          w.creep_across * speed / load_n,
+  return {w.creep_along * speed / load_n + w.slip_along_mps_per_n,
+          w.creep_across * speed / load_n + w.slip_across_mps_per_n,
           {rolled * floor.drift_x, rolled * floor.drift_y, 0}};
 }
 

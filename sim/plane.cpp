@@ -72,7 +72,7 @@ bool solve_three(const Matrix3d& K, Vector3d& x) {
 bool World::State::runs_on_balls() const {
   if (options.general_steps || sprung || !body.legs().empty()) return false;
   for (const Wheel& w : robot.wheels) {
-    if (w.eccentricity_m != 0 || w.creep_along != 0 || w.creep_across != 0 || w.patch_width_m != 0) return false;
+    if (w.eccentricity_m != 0 || w.gives_way() || w.patch_width_m != 0) return false;
   }
   for (const Motor& m : drivetrain.motor) {
     if (m.backlash_rad > 0 || m.torque_limit_nm <= 0) return false;

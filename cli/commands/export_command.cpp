@@ -78,15 +78,16 @@ Files mcap(const Recording& recording, std::array<std::string, 2> joints, const 
           {"runs.csv", exchange::runs_csv(exchange::one_log(recording))}};
 }
 
-// Friction of the floor and creep of the tyres, as the twin has them. Gazebo's slip is a speed per force: creep (slip
-// ratio per traction ratio) at the twin's speed and half of the robot's weight.
+// Friction of the floor, creep and slip of the tyres, as the twin has them. Gazebo's slip is a speed per force: creep
+// (slip ratio per traction ratio) at the twin's speed and half of the robot's weight; the twin's slip is that itself.
 exchange::WheelContact contact_of(const Result& r, const RobotModel& model) {
   if (r.twin_file.empty()) return {};
   const Scenario twin = read_scenario(r.twin_file);
   const Rig rig = rig_for(twin, model, {"export", Direction::cw, false, 0});
   const double mps_per_n = 2 * twin.course.linear_speed_mps / (rig.robot.total_mass_kg() * twin.physics.gravity_mps2);
-  return {rig.floor.friction, mps_per_n * rig.robot.wheels[0].creep_along,
-          mps_per_n * rig.robot.wheels[0].creep_across};
+  const Wheel& w = rig.robot.wheels[0];
+  return {rig.floor.friction, mps_per_n * w.creep_along + w.slip_along_mps_per_n,
+          mps_per_n * w.creep_across + w.slip_across_mps_per_n};
 }
 
 // Read again: joints whose frames are turned against the axle's cannot be moved by their y alone.

@@ -227,7 +227,7 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   }
   // No two engines, and no real tyre, grip sideways alike: the creep of the tyres is a nuisance up to its usual size.
   Effect creep = neutral_effect(find_effect("tyre_creep"));
-  creep.values.numbers = {0, kCreep};
+  creep.values.numbers[1] = kCreep;  // across
   const auto crept = drive({creep});
   Effect late = neutral_effect(find_effect("encoder_latency"));
   late.values.numbers = {scatter.late_s};

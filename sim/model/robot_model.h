@@ -56,13 +56,20 @@ struct Wheel {
   double transverse_inertia_kgm2 = 0;  ///< about a diameter
   double effort_limit_nm = 0;          ///< from the URDF's <limit>; 0 if it gives none
   // How the tyre meets the floor; all zero: a hard thin disc.
-  double compliance_mpn = 0;  ///< loss of rolling radius per newton of load
-  double creep_along = 0;     ///< slip per traction ratio (F/N) before sliding, rolling direction
-  double creep_across = 0;    ///< the same sideways
-  double patch_width_m = 0;   ///< of the contact, for its friction against turning on the spot
-  double along_joint_m = 0;   ///< of the middle plane from the joint's origin, along the URDF's axis
+  double compliance_mpn = 0;         ///< loss of rolling radius per newton of load
+  double creep_along = 0;            ///< slip per traction ratio (F/N) before sliding, rolling direction
+  double creep_across = 0;           ///< the same sideways
+  double slip_along_mps_per_n = 0;   ///< speed per force before sliding, at any speed, also standing
+  double slip_across_mps_per_n = 0;  ///< the same sideways
+  double patch_width_m = 0;          ///< of the contact, for its friction against turning on the spot
+  double along_joint_m = 0;          ///< of the middle plane from the joint's origin, along the URDF's axis
   Slide slide;
   Suspension suspension;
+
+  /// Whether it slips before it slides.
+  bool gives_way() const {
+    return creep_along != 0 || creep_across != 0 || slip_along_mps_per_n != 0 || slip_across_mps_per_n != 0;
+  }
 };
 
 /// A support that is not driven: a fixed ball, or a wheel that swivels about an upright axis.

@@ -42,7 +42,7 @@ std::vector<double> numbers(const Rig& rig) {
     add(w.axis);
     all.insert(all.end(), {w.radius_m, w.width_m, w.mass_kg, w.spin_inertia_kgm2, w.transverse_inertia_kgm2,
                            w.effort_limit_nm, w.eccentricity_m, w.eccentricity_rad, w.compliance_mpn, w.creep_along,
-                           w.creep_across, w.patch_width_m});
+                           w.creep_across, w.slip_along_mps_per_n, w.slip_across_mps_per_n, w.patch_width_m});
   }
   for (const Caster& c : r.casters) {
     add(c.centre_m);

@@ -97,6 +97,52 @@ TEST(FloorSlope, BelongsToTheFloor) {
   EXPECT_NEAR(mirrored.theta_rad, -a.theta_rad, 1e-9);
 }
 
+// Contacts whose friction is a damper let a robot down at a speed, whether it rolls or stands: each wheel by its own
+// force along, both alike by half of what pulls across.
+Pose2 slip_downhill(const RobotModel& robot, const TyreCreep& tyre, double downhill_rad, double speed_mps,
+                    double seconds, double start_rad) {
+  constexpr int kSteps = 4000;
+  const double base_kg = robot.base.mass_kg, m = robot.total_mass_kg(), b = kWheelbase_m, dt = seconds / kSteps;
+  Pose2 X{0, 0, start_rad};
+  for (int i = 0; i < kSteps; ++i) {
+    const double pull = kG * std::sin(kSlope_rad), to_it_rad = downhill_rad - X.theta_rad;
+    const double gx = pull * std::cos(to_it_rad), gy = pull * std::sin(to_it_rad);
+    const double yaw_n = base_kg * robot.base.com_m.x() * gy / b;  // ahead of the axle the weight turns it downhill
+    const double left_mps = speed_mps + tyre.slip_along_mps_per_n * (m * gx / 2 - yaw_n);
+    const double right_mps = speed_mps + tyre.slip_along_mps_per_n * (m * gx / 2 + yaw_n);
+    const double along = (left_mps + right_mps) / 2 * dt, across = tyre.slip_across_mps_per_n * m * gy / 2 * dt;
+    const double turn = (right_mps - left_mps) / b * dt, middle = X.theta_rad + turn / 2;
+    X.x_m += along * std::cos(middle) - across * std::sin(middle);
+    X.y_m += along * std::sin(middle) + across * std::cos(middle);
+    X.theta_rad += turn;
+  }
+  return {X.x_m - speed_mps * seconds, X.y_m, X.theta_rad - start_rad};
+}
+
+TEST(TyreCreep, SlipAtAnySpeedLetsARobotDownASlope) {
+  constexpr double kSeconds = 10, kShare = 1e-3;
+  const TyreCreep tyre{0, 0, 2e-5, 1e-5};
+  for (const double speed_mps : {0.0, 0.2}) {
+    for (const double downhill_rad : {0.0, 1.0, M_PI / 2, -2.0}) {
+      TrialDrive drive(rig_with(tyre, FloorSlope{kSlope_rad, downhill_rad}));
+      drive.ramp(speed_mps, 0, 1);
+      drive.go(speed_mps, 0, 0.4);
+      const Pose2 before = drive.error();
+      drive.go(speed_mps, 0, kSeconds);
+      const Pose2 after = drive.error();
+      const Pose2 e{after.x_m - before.x_m, after.y_m - before.y_m, after.theta_rad - before.theta_rad};
+      const Pose2 expected = slip_downhill(rig_with().robot, tyre, downhill_rad, speed_mps, kSeconds, before.theta_rad);
+      std::cout << "at " << speed_mps << " m/s, downhill " << downhill_rad << ": " << e.x_m << ", " << e.y_m << " m, "
+                << e.theta_rad << " rad (" << expected.x_m << ", " << expected.y_m << ", " << expected.theta_rad
+                << ")\n";
+      const double size_m = std::hypot(expected.x_m, expected.y_m);
+      EXPECT_NEAR(e.x_m, expected.x_m, kShare * size_m);
+      EXPECT_NEAR(e.y_m, expected.y_m, kShare * size_m);
+      EXPECT_NEAR(e.theta_rad, expected.theta_rad, kShare * std::abs(expected.theta_rad) + kHeldDownhill_rad);
+    }
+  }
+}
+
 // Four legs and four turns in place; the heading of the drift turns with the robot in a step, so a turn's share is off
 // by up to half a step's angle.
 TEST(CarpetDrift, IsTheSameVectorBothWaysRound) {
