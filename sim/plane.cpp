@@ -75,7 +75,7 @@ bool World::State::runs_on_balls() const {
     if (w.eccentricity_m != 0 || w.gives_way() || w.patch_width_m != 0) return false;
   }
   for (const Motor& m : drivetrain.motor) {
-    if (m.backlash_rad > 0 || m.torque_limit_nm <= 0) return false;
+    if (m.backlash_rad > 0 || m.droop_radps_per_nm > 0 || m.torque_limit_nm <= 0) return false;
   }
   for (const Caster& c : robot.casters) {
     if (c.friction > 0) return false;

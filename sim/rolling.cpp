@@ -44,7 +44,8 @@ bool World::State::may_roll() const {
   if (options.general_steps) return false;
   for (int i = 0; i < 2; ++i) {
     const Motor& m = drivetrain.motor[i];
-    if (robot.wheels[i].eccentricity_m > 0 && (m.backlash_rad > 0 || m.torque_limit_nm <= 0)) return false;
+    const bool known = m.backlash_rad == 0 && m.droop_radps_per_nm == 0 && m.torque_limit_nm > 0;
+    if (robot.wheels[i].eccentricity_m > 0 && !known) return false;
   }
   return true;
 }
@@ -80,6 +81,8 @@ void World::State::start_shafts(double step_s, const std::array<double, 2>& targ
   for (int i = 0; i < 2; ++i) {
     const Motor& m = drivetrain.motor[i];
     Shaft& shaft = now.shaft[i] = {0, target_radps[i], m.torque_limit_nm * step_s};
+    const double gives = motor_compliance(i, step_s);
+    if (gives > 0 && m.torque_limit_nm > 0) shaft.give = 1 / gives;
     if (m.backlash_rad <= 0) continue;
     const double play_rad = shaft_rad[i] - body.joint_angle(i), lag_radps = body.velocity()[6 + i] - target_radps[i];
     const double forward = (m.backlash_rad / 2 - play_rad) / step_s,
@@ -151,7 +154,9 @@ bool World::State::solve_rolling(Rolling& now, StickingProblem& motion) const {
   }
   for (int i = 0; i < 2; ++i) {
     const int leg = now.held.wheel_leg[i], state = grip.motor[i];
-    if (leg >= 0 && std::abs(state) == 1) motion.turn_wheel(leg, state * now.shaft[i].limit);
+    const Shaft& shaft = now.shaft[i];
+    if (leg >= 0 && std::abs(state) == 1) motion.turn_wheel(leg, state * shaft.limit);
+    if (leg >= 0 && state == 0) motion.hold_wheel(leg, body.velocity()[6 + i] - shaft.radps, shaft.give);
   }
   for (int leg = 0; leg < int(body.legs().size()); ++leg) {
     if (now.swivel[leg].limit == 0) continue;
@@ -244,7 +249,8 @@ int World::State::motor_state(int wheel, double impulse, double radps, const Rol
     return (impulse > shaft.limit) - (impulse < -shaft.limit);
   }
   const int way = state == 2 ? shaft.side : state;
-  const bool behind = way * (radps - shaft.radps) < 0;
+  const double gives_way_radps = state != 2 && shaft.give > 0 ? shaft.limit / shaft.give : 0;
+  const bool behind = way * (radps - shaft.radps) < -gives_way_radps;
   return behind == (state != 2) ? state : 0;
 }
 
@@ -263,6 +269,7 @@ bool World::State::check_motors(const StickingProblem& motion, const Rolling& no
   }
   bool same = true;
   for (int i = 0; i < 2; ++i) {
+    if (now.shaft[i].give > 0) impulse[i] = now.shaft[i].give * (now.shaft[i].radps - radps[i]);
     const int state = motor_state(i, impulse[i], radps[i], now);
     same = same && state == grip.motor[i];
     grip.motor[i] = state;

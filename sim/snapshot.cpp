@@ -27,10 +27,9 @@ bool goes_on_alike(const Snapshot& a, const Snapshot& b) {
   const Eigen::Vector3d up_b = b.q_WB.conjugate() * Eigen::Vector3d::UnitZ();
   return alike(a.velocity, b.velocity, kAlike) && alike(a.joint_rad, b.joint_rad, kAlike) &&
          alike(a.set_point_radps, b.set_point_radps, kAlike) && alike(a.shaft_rad, b.shaft_rad, kAlike) &&
-         alike(a.motor_load_nm, b.motor_load_nm, kAlike_n) && alike(a.radius_factor, b.radius_factor, kAlike) &&
-         alike(a.spring_up_m, b.spring_up_m, kAlike) && std::abs(a.p_WB_m.z() - b.p_WB_m.z()) < kAlike &&
-         (up_a - up_b).norm() < kAlike && alike(a.loads.wheel_n, b.loads.wheel_n, kAlike_n) &&
-         alike(a.loads.caster_n, b.loads.caster_n, kAlike_n);
+         alike(a.radius_factor, b.radius_factor, kAlike) && alike(a.spring_up_m, b.spring_up_m, kAlike) &&
+         std::abs(a.p_WB_m.z() - b.p_WB_m.z()) < kAlike && (up_a - up_b).norm() < kAlike &&
+         alike(a.loads.wheel_n, b.loads.wheel_n, kAlike_n) && alike(a.loads.caster_n, b.loads.caster_n, kAlike_n);
 }
 
 Snapshot World::snapshot() const {
@@ -43,7 +42,6 @@ Snapshot World::snapshot() const {
   for (std::size_t i = 0; i < s.body.joints().size(); ++i) now.joint_rad[i] = s.body.joint_angle(int(i));
   now.command_radps = s.last_command_radps;
   now.set_point_radps = s.set_point_radps;
-  now.motor_load_nm = s.motor_load_nm;
   now.shaft_rad = s.shaft_rad;
   now.zero_angle_rad = s.zero_angle_rad;
   now.radius_factor = s.radius_factor;
@@ -67,7 +65,6 @@ void World::resume(const Snapshot& then, const Pose2& X_moved) {
   for (std::size_t i = 0; i < s.body.joints().size(); ++i) s.body.set_joint_angle(int(i), then.joint_rad[i]);
   s.command_radps = s.last_command_radps = then.command_radps;
   s.set_point_radps = then.set_point_radps;
-  s.motor_load_nm = then.motor_load_nm;
   s.shaft_rad = then.shaft_rad;
   s.zero_angle_rad = then.zero_angle_rad;
   s.radius_factor = then.radius_factor;

@@ -18,7 +18,6 @@ struct Snapshot {
   std::array<double, 16> velocity{};  ///< base frame: rad/s, m/s, and rad/s of the joints
   std::array<double, 2> command_radps{};
   std::array<double, 2> set_point_radps{};
-  std::array<double, 2> motor_load_nm{};
   std::array<double, 2> shaft_rad{};
   std::array<double, 2> zero_angle_rad{};
   std::array<double, 2> radius_factor{1, 1};

@@ -17,14 +17,12 @@ constexpr double kSmallTurn = 0.03;  // in a step; the series' next term is belo
 }  // namespace
 
 void World::State::step(double step_s, const std::array<double, 2>& target_radps) {
-  const std::array<double, 2> before_radps{body.velocity()[6], body.velocity()[7]};
   const Impulse given = given_impulse(step_s);
   const bool kicked = !given.isZero(0);
   if (kicked || !is_on_plane(step_s) || !step_on_plane(step_s, target_radps))
     step_anywhere(step_s, target_radps, given);
   count(report);
   note_loads(step_s);
-  note_motor_loads(step_s, before_radps);
   note_strain(step_s);
   body.integrate(step_s);
   if (sprung) move_springs(step_s);
@@ -58,6 +56,7 @@ bool World::State::step_with_holding_motors(double step_s, const std::array<doub
   const HeldMotors* held = body.held_motors();
   const auto& motor = drivetrain.motor;
   if (!held || motor[0].backlash_rad > 0 || motor[1].backlash_rad > 0) return false;
+  if (motor_compliance(0, step_s) > 0 || motor_compliance(1, step_s) > 0) return false;
   const Eigen::Vector2d change(target_radps[0] - u[6], target_radps[1] - u[7]);
   DofVector v(kBaseAndWheels);
   v.head<kBaseAndWheels>() = u.head<kBaseAndWheels>() + held->gain.lazyProduct(change);
@@ -95,10 +94,16 @@ void World::State::step_with_motor_rows(double step_s, const std::array<double, 
   for (int i = 0; i < rows; ++i) u += response[i] * impulses[i];
 }
 
+// Speed control in proportion, torque = (set speed - speed) / droop: a compliance of the motor's row. While the robot
+// is set down its motors hold.
+double World::State::motor_compliance(int wheel, double step_s) const {
+  return time_s < 0 ? 0 : drivetrain.motor[wheel].droop_radps_per_nm / step_s;
+}
+
 void World::State::add_motor(int wheel, double target_radps, double step_s, const DofVector& u) {
   problem.motor[problem.motors++] = {rows, drivetrain.motor[wheel].torque_limit_nm * step_s};
   row[rows] = DofVector::Unit(body.dofs(), 6 + wheel);
-  compliance[rows] = 0;
+  compliance[rows] = motor_compliance(wheel, step_s);
   problem.b[rows] = u[6 + wheel] - target_radps;
   ++rows;
 }
@@ -129,7 +134,7 @@ void World::State::add_backlash(int wheel, double target_radps, double step_s, c
   const double side = forward <= backward ? 1 : -1;
   problem.motor[problem.motors++] = {rows, m.torque_limit_nm * step_s, 0};
   row[rows] = DofVector::Unit(body.dofs(), 6 + wheel) * side;
-  compliance[rows] = 0;
+  compliance[rows] = motor_compliance(wheel, step_s);
   problem.b[rows] = std::min(forward, backward);
   ++rows;
 }
@@ -154,38 +159,8 @@ std::array<double, 2> World::State::follow_commands(double step_s, double part) 
     const double follow = m.lag_s > 0 ? 1 - std::exp(-step_s / m.lag_s) : 1;
     mean_radps[i] = wanted + (set_point_radps[i] - wanted) * follow * m.lag_s / step_s;
     set_point_radps[i] += follow * (wanted - set_point_radps[i]);
-    if (m.droop_radps_per_nm > 0) mean_radps[i] = given_way_radps(i, mean_radps[i], step_s);
   }
   return mean_radps;
-}
-
-// That a motor moves as the robot speeds up, or turns faster: the larger of both.
-double World::State::droop_inertia_kgm2(int wheel) const {
-  const Wheel& w = robot.wheels[wheel];
-  const MassAbout& all = body.locked();
-  const double speeding_kg = all.mass_kg / 2, b_m = robot.wheelbase_m();
-  const double turning_kg = 2 * all.inertia_kgm2(2, 2) / (b_m * b_m);
-  return w.spin_inertia_kgm2 + std::max(speeding_kg, turning_kg) * w.radius_m * w.radius_m;
-}
-
-// Speed control in proportion, torque = (set - speed) / droop: with J the inertia that it moves,
-// droop J speed' + speed = set - droop load. Implicit in the speed; the load is the last step's.
-double World::State::given_way_radps(int wheel, double set_radps, double step_s) const {
-  if (time_s < 0) return set_radps;
-  const double droop = drivetrain.motor[wheel].droop_radps_per_nm, time_constant_s = droop * droop_inertia_kgm2(wheel);
-  const double wanted_radps = set_radps - droop * motor_load_nm[wheel];
-  return (time_constant_s * body.velocity()[6 + wheel] + step_s * wanted_radps) / (time_constant_s + step_s);
-}
-
-// The floor's pull on the rim and the wheel's own inertia, but for what given_way_radps() knows as inertia.
-void World::State::note_motor_loads(double step_s, const std::array<double, 2>& before_radps) {
-  for (int i = 0; i < 2; ++i) {
-    if (drivetrain.motor[i].droop_radps_per_nm == 0) continue;
-    const Wheel& w = robot.wheels[i];
-    const double faster_radps2 = (body.velocity()[6 + i] - before_radps[std::size_t(i)]) / step_s;
-    motor_load_nm[i] =
-        w.radius_m * loads.wheel_along_n[i] + (w.spin_inertia_kgm2 - droop_inertia_kgm2(i)) * faster_radps2;
-  }
 }
 
 Impulse World::State::given_impulse(double step_s) const {

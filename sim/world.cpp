@@ -130,7 +130,6 @@ void World::place(const Pose2& X_WB) {
   s.place_on_floor(X_WB);
   s.set_heading(X_WB.theta_rad);
   s.command_radps = s.last_command_radps = s.set_point_radps = {};
-  s.motor_load_nm = {};
   s.radius_factor = {1, 1};
   s.pull = {};
   const double settle_s = s.sprung ? kSettleOnSprings_s : kSettle_s;

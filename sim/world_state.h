@@ -82,6 +82,7 @@ struct Shaft {
   int side = 0;      // of the play: 1 forwards, -1 backwards, 0 without play
   double radps = 0;  // at which it holds the wheel
   double limit = 0;  // of its impulse
+  double give = 0;   // impulse per speed that the wheel is behind, of a motor that gives way; 0: it holds
 };
 
 /// A rolling step in the making.
@@ -137,7 +138,6 @@ struct World::State {
   std::array<double, 2> last_command_radps{};
   std::array<double, 2> zero_angle_rad{};
   std::array<double, 2> set_point_radps{};    // behind the motors' lag
-  std::array<double, 2> motor_load_nm{};      // beyond what the inertia takes; of motors that give way
   std::array<double, 2> shaft_rad{};          // motor side of the backlash
   std::array<double, 2> radius_factor{1, 1};  // of rolling, not of the shape
   std::array<double, 2> rest_load_n{};        // that squashes a tyre at rest
@@ -177,9 +177,7 @@ struct World::State {
   double rolling_radius(const Support& s) const;
   double load(const Support& s) const;
   std::array<double, 2> follow_commands(double step_s, double part);
-  double droop_inertia_kgm2(int wheel) const;
-  double given_way_radps(int wheel, double set_radps, double step_s) const;
-  void note_motor_loads(double step_s, const std::array<double, 2>& before_radps);
+  double motor_compliance(int wheel, double step_s) const;
   void step(double step_s, const std::array<double, 2>& target_radps);
   void step_anywhere(double step_s, const std::array<double, 2>& target_radps, const Impulse& given);
   bool step_rolling(double step_s, const std::array<double, 2>& target_radps, const Impulse& given, DofVector& u);
@@ -197,7 +195,7 @@ struct World::State {
   void start_contact(const Contact& c, const Rolling& now, Sticking& sticking) const;
   void start_shafts(double step_s, const std::array<double, 2>& target_radps, Rolling& now) const;
   bool wheel_is_free(int wheel, const Rolling& now) const {
-    return grip.motor[wheel] != 0 || now.shaft[wheel].limit <= 0;
+    return grip.motor[wheel] != 0 || now.shaft[wheel].limit <= 0 || now.shaft[wheel].give > 0;
   }
   bool shares_spring(const Contact& c) const;
   void set_springs(double step_s);

@@ -31,6 +31,10 @@ class StickingProblem {
     leg_[leg].right[0] -= give * speed;
   }
   void turn_fork(int leg, double impulse) { leg_[leg].right[0] += impulse; }
+  void hold_wheel(int leg, double speed, double give) {
+    leg_[leg].d += give;
+    leg_[leg].right[1] -= give * speed;
+  }
   void turn_wheel(int leg, double impulse) { leg_[leg].right[1] += impulse; }
 
   /// False if the problem is not positive definite.

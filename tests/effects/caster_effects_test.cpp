@@ -194,5 +194,25 @@ TEST(CasterSwivel, KeepsTheHeightOfACasterThatSwivelsAlready) {
   EXPECT_EQ(c.centre_m.x(), kSwivel_m - kTrail_m);
 }
 
+// On motors that give way a robot whose caster drags stops and stands: dry friction holds it, and nothing trembles.
+TEST(MotorResponse, DroopLetsADraggingRobotStand) {
+  Rig rig = rig_with(CasterDrag{0.02, 0.05});
+  for (Motor& m : rig.drivetrain.motor) m.droop_radps_per_nm = 0.2;
+  TrialDrive drive(rig);
+  drive.ramp(0.2, 0.3, 1);
+  drive.go(0.2, 0.3, 1);
+  drive.ramp(0, 0, 1);
+  drive.go(0, 0, 2);
+  const Pose2 before = drive.world.pose();
+  const std::int64_t newton_steps = drive.world.cost().newton_steps;
+  drive.go(0, 0, 10);
+  const Pose2 after = drive.world.pose();
+  std::cout << "moved by " << std::hypot(after.x_m - before.x_m, after.y_m - before.y_m) << " m and "
+            << after.theta_rad - before.theta_rad << " rad while it stood\n";
+  EXPECT_LT(std::hypot(after.x_m - before.x_m, after.y_m - before.y_m), 1e-6);
+  EXPECT_LT(std::abs(after.theta_rad - before.theta_rad), 1e-6);
+  EXPECT_EQ(drive.world.cost().newton_steps, newton_steps) << "nothing slides";
+}
+
 }  // namespace
 }  // namespace umbsim

@@ -56,5 +56,20 @@ TEST(RollingStep, IsTheGeneralStepForOtherRobots) {
   }
 }
 
+// Motors that give way, with what loads them, with play and at their limits.
+TEST(RollingStep, IsTheGeneralStepOnMotorsThatGiveWay) {
+  const std::vector<std::string> effects{
+      "motor_response: {droop_radps_per_nm: 0.2}",
+      "motor_response: {droop_radps_per_nm: 0.2}, caster_drag: {coefficient: 0.02, left_m: 0.05}",
+      "motor_response: {droop_radps_per_nm: 0.2}, floor_slope: {slope_rad: 0.02, downhill_rad: 1}, tyre_creep: {}",
+      "motor_response: {droop_radps_per_nm: 0.2}, backlash: {left_rad: 0.02, right_rad: 0.01}",
+      "motor_response: {droop_radps_per_nm: 0.2, torque_limit_nm: 0.2}",
+      "motor_response: {droop_radps_per_nm: 0.2}, wheel_eccentricity: {left_m: 0.002}",
+      "motor_response: {droop_radps_per_nm: 0.2}, caster_swivel: {trail_m: 0.03, friction_nm: 0.2}",
+  };
+  for (const std::string& e : effects)
+    EXPECT_LT(difference(shipped("nominal", {"course.side_m=1", "effects={" + e + "}"}), e), kSame) << e;
+}
+
 }  // namespace
 }  // namespace umbsim
