@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "gap/hypotheses/felt_through.h"
 #include "gap/hypotheses/parametrisations.h"
 
 namespace umbsim::gap {
@@ -152,84 +153,19 @@ Hypothesis both_eccentric() {
   return both;
 }
 
-// Toed wheels scrub, and how that slows and turns the robot depends on how softly the tyres grip.
-Hypothesis on_soft_tyres(Hypothesis hypothesis) {
-  hypothesis.variant += ", soft tyres";
-  const Eigen::Index own = Eigen::Index(hypothesis.parameters.size());
-  // Shares of slip per traction ratio; their logarithms, for scrub depends on their order of magnitude.
-  constexpr double kAlong = 0.1;
-  constexpr double kAcross = 0.01;
-  hypothesis.parameters.push_back({"log tyre_creep.along", 0, 0.2, 1.5, -5, 1.6});
-  hypothesis.parameters.push_back({"log tyre_creep.across", 0, 0.2, 1.5, -5, 3.9});
-  hypothesis.of_others = 2;
-  hypothesis.from_zero = false;
-  hypothesis.parameters.front().start = hypothesis.parameters.front().step * 2;
-  hypothesis.with = [own](const Eigen::VectorXd& p) {
-    Effect creep = neutral_effect(find_effect("tyre_creep"));
-    creep.values.numbers = {kAlong * std::exp(p[own]), kAcross * std::exp(p[own + 1])};
-    return std::vector<Effect>{creep};
-  };
-  return hypothesis;
-}
-
-constexpr double kGivesWay_s = 0.01;  // typical time constant of a speed control in proportion
-
-// A slope or a drag pulls on motors, which turn otherwise than they are told if they give way: as much as they lag when
-// the robot speeds up. Counts tell pull times droop, in which they are linear, and the lag tells the droop.
-Hypothesis on_motors_that_give_way(Hypothesis hypothesis, double motor_inertia_kgm2) {
-  hypothesis.variant += ", motors that give way";
-  const Eigen::Index own = Eigen::Index(hypothesis.parameters.size());
-  hypothesis.parameters.push_back({"log motor_response.droop", 0, 0.2, 1, -1.5, 4});
-  hypothesis.of_others = 1;
-  const EffectInfo& motor = find_effect("motor_response");
-  const std::size_t droop = index_of(motor, "droop_radps_per_nm");
-  const double most = motor.parameters[droop].bounds.max;
-  hypothesis.values = [values = hypothesis.values, own](const Eigen::VectorXd& p) {
-    return values(p.head(own) * std::exp(-p[own]));
-  };
-  hypothesis.with = [=, &motor](const Eigen::VectorXd& p) {
-    Effect response = neutral_effect(motor);
-    response.values.numbers[droop] = std::min(most, kGivesWay_s / motor_inertia_kgm2 * std::exp(p[own]));
-    return std::vector<Effect>{response};
-  };
-  return hypothesis;
-}
-
-// A slope pulls the robot aside on tyres that creep, and turns it where its mass is not over the axle. Poses tell slope
-// times creep, in which they are linear, and hardly either of them.
-Hypothesis on_creeping_tyres(Hypothesis hypothesis) {
-  hypothesis.variant += ", tyres that creep";
-  const Eigen::Index own = Eigen::Index(hypothesis.parameters.size());
-  constexpr double kTypical = 0.01;  // slip per traction ratio, typical of hard tyres
-  hypothesis.parameters.push_back({"log tyre_creep", 0, 0.2, 1, -3, 2});
-  hypothesis.of_others = 1;
-  hypothesis.values = [values = hypothesis.values, own](const Eigen::VectorXd& p) {
-    return values(p.head(own) * std::exp(-p[own]));
-  };
-  hypothesis.with = [=](const Eigen::VectorXd& p) {
-    Effect creep = neutral_effect(find_effect("tyre_creep"));
-    creep.values.numbers = {kTypical * std::exp(p[own]), kTypical * std::exp(p[own])};
-    return std::vector<Effect>{creep};
-  };
-  return hypothesis;
-}
-
 }  // namespace
 
 Hypothesis scrub_hypothesis() {
   constexpr double kFriction = 0.15;  // friction of a ball in its socket, or of a swivel
   constexpr double kRubber = 0.05;    // of rubber along its way: a stiffness of twenty times the load
   Hypothesis hypothesis = direct("caster_drag", "on creeping tyres", {positive("coefficient", 0.05, kFriction)});
-  hypothesis.with = [](const Eigen::VectorXd&) {
-    Effect creep = neutral_effect(find_effect("tyre_creep"));
-    creep.values.numbers = {kRubber, 0};
-    return std::vector<Effect>{creep};
-  };
+  hypothesis.with = [](const Eigen::VectorXd&) { return std::vector<Effect>{creeping(kRubber, 0)}; };
   return hypothesis;
 }
 
 std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revolution, double wheel_width_m,
                                          double motor_inertia_kgm2) {
+  const GivesWay motor = motors(motor_inertia_kgm2);
   std::vector<Hypothesis> all = {
       logarithmic("over_acceleration", "factor", 1, 2, -3, 6),
       logarithmic("fast_turning", "factor", 1, 1.5, -3, 4),
@@ -281,13 +217,11 @@ std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revol
       direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.04)}),
       drag_beside_middle("left of it", 0.05),
       drag_beside_middle("right of it", -0.05),
-      on_motors_that_give_way(direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.1)}),
-                              motor_inertia_kgm2),
+      felt_through(motor, direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.1)})),
       from_start(direct("slippery_floor", "friction", {{"friction", 0, 2e-4, 0.2, 0.01, 0.8}}), 0.06),
       vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5),
-      on_motors_that_give_way(vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.05, 0.5),
-                              motor_inertia_kgm2),
-      on_creeping_tyres(vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.05, 0.5)),
+      felt_through(motor, vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.05, 0.5)),
+      felt_through(tyres(), vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.05, 0.5)),
       vector_hypothesis("carpet_drift", "metres_per_metre", "direction_rad", 1e-3, 0.008, 0.5),
   };
   for (Hypothesis& f : all) {

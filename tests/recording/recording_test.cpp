@@ -8,7 +8,6 @@
 #include "core/text/yaml_reader.h"
 #include "folder.h"
 #include "recording/names.h"
-#include "recording/thinned.h"
 
 namespace umbsim {
 namespace {
@@ -227,27 +226,6 @@ TEST(Recording, OptionalKeysMayBeAbsent) {
   EXPECT_FALSE(run.start_heading_rad || run.turn || run.payload_kg || run.inner_wheel_bumps);
   EXPECT_EQ(run.encoders.at(1).right_ticks, -6) << "Windows line breaks";
   EXPECT_EQ(run.truth.at(1).X_WB.x_m, 1e-3);
-}
-
-TEST(Recording, ThinnedKeepsEvenReadingsAndTheLast) {
-  Recording recording = full_recording();
-  RecordedRun& run = recording.runs[0];
-  run.truth.clear();
-  for (int i = 0; i <= 1001; ++i) run.truth.push_back({i * 0.01, {i * 1.0, 0, 0}});
-  const auto times = [](const Recording& r) {
-    std::vector<double> all;
-    for (const TruthSample& t : r.runs[0].truth) all.push_back(t.time_s);
-    return all;
-  };
-  const std::vector<double> kept = times(thinned(recording, 30));
-  ASSERT_EQ(kept.size(), 252u);  // of 100 a second every fourth, and the last one
-  for (std::size_t i = 0; i + 1 < kept.size(); ++i) EXPECT_DOUBLE_EQ(kept[i], double(i) * 0.04);
-  EXPECT_DOUBLE_EQ(kept.back(), 10.01);
-  EXPECT_EQ(times(thinned(recording, 100)), times(recording)) << "just as many as may be";
-  EXPECT_EQ(thinned(recording, 30).runs[1].truth.size(), recording.runs[1].truth.size()) << "slow enough already";
-  EXPECT_EQ(thinned(recording, 30).runs[0].encoders.size(), run.encoders.size());
-  recording.truth_kind = "endpoints";
-  EXPECT_EQ(times(thinned(recording, 30)), times(recording)) << "end points are no track";
 }
 
 TEST(Recording, WritingIsFast) {

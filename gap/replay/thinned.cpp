@@ -1,8 +1,8 @@
-#include "recording/thinned.h"
+#include "gap/replay/thinned.h"
 
 #include <cmath>
 
-namespace umbsim {
+namespace umbsim::gap {
 namespace {
 
 // Clocks are written to some digits: a rate that is above by less than this is not above.
@@ -28,4 +28,4 @@ Recording thinned(Recording recording, double most_hz) {
   return recording;
 }
 
-}  // namespace umbsim
+}  // namespace umbsim::gap

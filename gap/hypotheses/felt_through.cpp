@@ -1,0 +1,67 @@
+#include "gap/hypotheses/felt_through.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "gap/hypotheses/parametrisations.h"
+
+namespace umbsim::gap {
+
+Effect creeping(double along, double across) {
+  Effect creep = neutral_effect(find_effect("tyre_creep"));
+  creep.values.numbers[index_of(*creep.info, "along")] = along;
+  creep.values.numbers[index_of(*creep.info, "across")] = across;
+  return creep;
+}
+
+GivesWay motors(double inertia_kgm2) {
+  const EffectInfo& info = find_effect("motor_response");
+  const std::size_t droop = index_of(info, "droop_radps_per_nm");
+  const double typical = kGivesWay_s / inertia_kgm2, most = info.parameters[droop].bounds.max;
+  return {"motors that give way", {"log motor_response.droop", 0, 0.2, 1, -1.5, 4}, [=, &info](double times) {
+            Effect response = neutral_effect(info);
+            response.values.numbers[droop] = std::min(most, typical * times);
+            return response;
+          }};
+}
+
+GivesWay tyres() {
+  constexpr double kTypical = 0.01;  // slip per traction ratio, of hard tyres
+  return {"tyres that creep", {"log tyre_creep", 0, 0.2, 1, -3, 2}, [](double times) {
+            return creeping(kTypical * times, kTypical * times);
+          }};
+}
+
+Hypothesis felt_through(const GivesWay& gives_way, Hypothesis pull) {
+  const Eigen::Index own = Eigen::Index(pull.parameters.size());
+  pull.variant += ", " + gives_way.what;
+  pull.parameters.push_back(gives_way.log_times);
+  pull.of_others = 1;
+  pull.values = [values = pull.values, own](const Eigen::VectorXd& p) {
+    return values(p.head(own) * std::exp(-p[own]));
+  };
+  pull.with = [effect = gives_way.effect, own](const Eigen::VectorXd& p) {
+    return std::vector<Effect>{effect(std::exp(p[own]))};
+  };
+  return pull;
+}
+
+Hypothesis on_soft_tyres(Hypothesis hypothesis) {
+  hypothesis.variant += ", soft tyres";
+  const Eigen::Index own = Eigen::Index(hypothesis.parameters.size());
+  // Shares of slip per traction ratio; their logarithms, for scrub depends on their order of magnitude.
+  constexpr double kAlong = 0.1;
+  constexpr double kAcross = 0.01;
+  hypothesis.parameters.push_back({"log tyre_creep.along", 0, 0.2, 1.5, -5, 1.6});
+  hypothesis.parameters.push_back({"log tyre_creep.across", 0, 0.2, 1.5, -5, 3.9});
+  hypothesis.of_others = 2;
+  hypothesis.from_zero = false;
+  hypothesis.parameters.front().start = hypothesis.parameters.front().step * 2;
+  hypothesis.with = [own](const Eigen::VectorXd& p) {
+    return std::vector<Effect>{creeping(kAlong * std::exp(p[own]), kAcross * std::exp(p[own + 1]))};
+  };
+  return hypothesis;
+}
+
+}  // namespace umbsim::gap
