@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "core/text/wrapped_text.h"
 #include "effects/catalogue.h"
 #include "gap/answer/where.h"
+#include "gap/output/diagnosis_json.h"
 #include "gap/output/diagnosis_text.h"
 
 namespace umbsim::gap {
