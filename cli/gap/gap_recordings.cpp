@@ -19,7 +19,7 @@ namespace umbsim {
 namespace {
 
 // Readings of a track per second that a diagnosis uses. Errors of a track go on for a second or so, and nothing that is
-// looked for is faster than a few hertz: more readings tell no more, and take memory and time.
+// looked for is faster than a few hertz: more readings hardly tell more, and take memory and time.
 constexpr double kTrack_hz = 30;
 
 // Folders of one name are told apart by a number.
