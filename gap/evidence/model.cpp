@@ -65,6 +65,7 @@ Model::Model(const Campaign& campaign, Simulator simulator, const Scatter& scatt
 void Model::observe() {
   noise_m2_ = {};
   filters_.clear();
+  further_variance_.assign(recording().runs.size(), {});
   for (std::size_t r = 0; r < recording().runs.size(); ++r) {
     filters_.emplace_back(nominal_.tracks[r], nominal_.rolled_m[r], noise(r), nominal_.seen[r], nominal_.velocity[r]);
   }
@@ -75,6 +76,18 @@ void Model::observe() {
   look_without_effects();
   const Evidence seen = evidence(unmoved_.grams, all_runs(), first_columns(nuisances()), nuisances_.shared_sds.front());
   settle_trackers(nuisances_, nominal_, noise_of_runs(), scatter_, seen.mean);
+  allow_for_ordinary_floors();
+}
+
+// No header says how well the floor holds. A robot that is driven so hard that it slips on an ordinary floor slips
+// there otherwise on every such floor, and in every engine.
+void Model::allow_for_ordinary_floors() {
+  if (slips_at() < scatter_.friction) return;
+  const Effect floor{&find_effect("slippery_floor"), {{scatter_.friction}, {}}};
+  SignatureErrors off = signature_errors_of(floor.info->name);
+  off.turned = 1;
+  take_as_unsure(predict({{floor}}).front(), off);
+  whiten_all();
 }
 
 std::vector<NoiseModel> Model::noise_of_runs() const {

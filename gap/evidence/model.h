@@ -58,7 +58,7 @@ struct Fit {
   std::vector<Effect> effects() const;
   /// The effects that a robot can be driven with, at other numbers; `without`: but for those of one hypothesis.
   std::vector<Effect> driven_at(const Eigen::VectorXd& numbers, std::size_t without = std::size_t(-1)) const;
-  std::string name() const;   ///< effects joined by "+", in alphabetical order
+  std::string name() const;  ///< effects joined by "+", in alphabetical order
   /// By how much log evidence the last effect is missed, without what goes with it: its own numbers' prior density over
   /// their posterior one, where it is off (Dickey 1971).
   double own_evidence() const;
@@ -232,6 +232,12 @@ class Model {
   void observe();
   std::vector<NoiseModel> noise_of_runs() const;
   void look_without_effects();  // when filters or nuisances are new
+  // What an effect does may be off so: nuisances, and further variance of motions. whiten_all() follows.
+  void take_as_unsure(const Predicted& with, const SignatureErrors& off, bool commanded = false);
+  void add_nuisances(const std::vector<Eigen::MatrixXd>& tracks, const std::vector<Eigen::MatrixXd>& counts,
+                     const Eigen::VectorXd& sd);
+  void whiten_all();
+  void allow_for_ordinary_floors();
   std::vector<Eigen::MatrixXd> products_of_nuisances() const;
   double roughness_under(const std::vector<Effect>& effects) const;
   CountsSd counts_sd(std::size_t run) const;
@@ -258,13 +264,14 @@ class Model {
   bool replicated_ = false;            // each of them from repeated runs
   double noise_floor_m_ = 0;
   std::vector<TrackFilter> filters_;
+  std::vector<Impulses3> further_variance_;  // of single motions, by run
   Nuisances nuisances_;
   std::vector<Eigen::MatrixXd> products_of_nuisances_;  ///< by run: shared, then the run's own
   struct Unmoved {
     std::vector<Eigen::VectorXd> residuals;
     std::vector<RunGram> grams;
   };
-  Unmoved unmoved_;  ///< runs without effects
+  Unmoved unmoved_;                     ///< runs without effects
   mutable long long simulated_ms_ = 0;  ///< threads add to it; whole, so that their order does not show
   mutable std::shared_ptr<const std::vector<PassedPlace>> passed_places_;
   mutable std::array<std::shared_ptr<const std::vector<std::vector<double>>>, 2> noise_m2_;  ///< as it was drawn

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "recording/encoder_clock.h"
@@ -113,6 +114,25 @@ Impulses3 radius_impulses(const NominalReplay& nominal, std::size_t run, int whe
     impulses.emplace_back(d / 2, 0, (wheel == 0 ? -d : d) / b_m);
   }
   return impulses;
+}
+
+std::vector<CoursePart> parts_of(const NominalReplay& nominal, std::size_t run) {
+  constexpr double kSpeedingShare = 0.02;  // of the longest way in a sample, by which one is not like that before
+  const auto& ways = nominal.wheels_m[run];
+  double longest_m = 0;
+  for (const auto& way : ways) longest_m = std::max({longest_m, std::abs(way[0]), std::abs(way[1])});
+  std::vector<CoursePart> parts(ways.size(), kLeg);
+  for (std::size_t k = 1; k < ways.size(); ++k) {
+    const double ds_m = (ways[k][0] + ways[k][1]) / 2;
+    const double turned_m = std::abs(ways[k][1] - ways[k][0]) / 2;
+    double faster_m = 0;
+    for (int w = 0; w < 2; ++w) faster_m = std::max(faster_m, std::abs(ways[k][w] - ways[k - 1][w]));
+    parts[k] = faster_m > kSpeedingShare * longest_m ? kSpeeding
+               : turned_m < 0.05 * std::abs(ds_m)    ? kLeg
+               : std::abs(ds_m) > 0.3 * turned_m     ? kArc
+                                                     : kInPlace;
+  }
+  return parts;
 }
 
 }  // namespace umbsim::gap

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gap/replay/campaign.h"
+#include "gap/traits/signature_errors.h"
 #include "recording/recording.h"
 
 namespace umbsim::gap {
@@ -40,5 +41,8 @@ using Impulses3 = std::vector<Eigen::Vector3d>;  ///< (along, across, heading) b
 
 /// What a wheel whose radius is larger by one part in one adds to each step. `wheel`: 0 left, 1 right.
 Impulses3 radius_impulses(const NominalReplay& nominal, std::size_t run, int wheel);
+
+/// What a run does before each sample of its truth, by the ways of its wheels.
+std::vector<CoursePart> parts_of(const NominalReplay& nominal, std::size_t run);
 
 }  // namespace umbsim::gap

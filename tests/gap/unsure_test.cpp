@@ -92,6 +92,34 @@ TEST(UnsureModel, WhatSlipsAcrossMayTurnTheRobot) {
   EXPECT_GT(turned_base, 0.5 * base);
 }
 
+// How much of a wheel's slip is lost as misfit: log density of a fit under the slip of another floor, against none.
+double lost_by_slip(const Recording& recording, const Scatter& scatter, double friction) {
+  const Replay replay(scenario_of(recording, "."), recording);
+  const Campaign campaign = campaign_of(recording);
+  const Model model(campaign, remembered(testing::simulator(replay), recording), scatter);
+  return lost(model, model.none(), {effect("slippery_floor", {{"friction", friction}})});
+}
+
+// A robot that turns eight times too fast slips on ordinary floors, and no header says how well they hold. One that
+// keeps to its course slips on none of them, and on ice as much as before.
+TEST(OrdinaryFloor, ForgivesTheSlipOfARobotThatIsDrivenTooHard) {
+  Scatter unforgiving;
+  unforgiving.friction = 10;
+  Scenario s = testing::squares(2, 1);
+  testing::add_noise(s, 13);
+  const Recording calm = run_experiment(s, 0).recording;
+  s.effects = {effect("fast_turning", {{"factor", 8}})};
+  const Recording hard = run_experiment(s, 0).recording;
+  const double slip = lost_by_slip(hard, unforgiving, 0.35), forgiven = lost_by_slip(hard, Scatter{}, 0.35);
+  const double ice = lost_by_slip(calm, unforgiving, 0.02), same_ice = lost_by_slip(calm, Scatter{}, 0.02);
+  std::printf("driven too hard, a floor of 0.35: %.0f lost, %.0f; calm, on ice: %.0f, %.0f\n", slip, forgiven, ice,
+              same_ice);
+  EXPECT_GT(slip, 100);
+  EXPECT_LT(forgiven, 0.1 * slip);
+  EXPECT_GT(ice, 10);
+  EXPECT_EQ(same_ice, ice);
+}
+
 // What an effect may do otherwise excuses what is added to it, and no explanation that does without it.
 TEST(UnsureModel, IsAskedForWhatStandsBesideAnEffectAndNotForWhatStandsInItsPlace) {
   Scenario s = testing::squares(2, 2);
