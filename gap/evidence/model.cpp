@@ -84,9 +84,7 @@ void Model::observe() {
 void Model::allow_for_ordinary_floors() {
   if (slips_at() < scatter_.friction) return;
   const Effect floor{&find_effect("slippery_floor"), {{scatter_.friction}, {}}};
-  SignatureErrors off = signature_errors_of(floor.info->name);
-  off.turned = 1;
-  take_as_unsure(predict({{floor}}).front(), off);
+  take_as_unsure(predict({{floor}}).front(), signature_errors_of(floor.info->name));
   whiten_all();
 }
 

@@ -130,7 +130,6 @@ Model Model::unsure_of(const Fit& fit) const {
     for (double& part : off.parts) part *= share;
     off.motion *= share;
     off.counts *= share;
-    off.turned = is_kinematic(effect) ? 0 : 1;
     return off;
   });
 }

@@ -5,6 +5,7 @@
 
 #include "gap/noise/track_filter.h"
 #include "gap/replay/nominal_replay.h"
+#include "gap/traits/traits.h"
 
 namespace umbsim::gap {
 
@@ -30,10 +31,10 @@ struct Scatter {
   double clock_s = 0.05;          ///< between encoders and tracker
   double run_clock_s = 0.02;      ///< the same from run to run, where the tracker is free
   double clock_rate = 1e-3;       ///< of one clock against the other, from run to run, where the tracker is free
-  double friction = 0.3;        ///< of the most slippery floor that is ordinary: rubber holds on dry ones by 0.4 to 1.2
-  double creep_across = 0.03;   ///< sideways creep of the tyres
-  double slip_share = 0.2;      ///< displacement by slip under jolts, in noise floors
-  double gain = 4e-4;           ///< of counts over commands
+  double friction = kOrdinaryFriction;  ///< of the most slippery floor that is ordinary
+  double creep_across = 0.03;           ///< sideways creep of the tyres
+  double slip_share = 0.2;              ///< displacement by slip under jolts, in noise floors
+  double gain = 4e-4;                   ///< of counts over commands
   double engine_gain = 1e-3;    ///< of the same, alike in all runs and in both wheels: a speed control in proportion
   double wheel_gain = 7e-4;     ///< of the same, of one wheel against the other
   double course_gain = 1.5e-3;  ///< of the same as the heading from the start goes, cosine and sine, mirrored cw to ccw

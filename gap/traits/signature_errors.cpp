@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "gap/traits/traits.h"
+
 namespace umbsim::gap {
 
 // What parts of the course err by was measured on MuJoCo's recordings of single effects
@@ -37,7 +39,9 @@ SignatureErrors signature_errors_of(const std::string& effect) {
   };
   // clang-format on
   const auto found = table.find(effect);
-  return found == table.end() ? rolling : found->second;
+  SignatureErrors errors = found == table.end() ? rolling : found->second;
+  errors.turned = is_kinematic(effect) ? 0 : 1;
+  return errors;
 }
 
 }  // namespace umbsim::gap

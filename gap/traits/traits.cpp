@@ -32,8 +32,8 @@ const std::vector<Traits>& table() {
       {"tyre_creep", "leg_start", 0, kSlip},
       {"caster_swivel", "leg_start", 0, kCaster},
       {"caster_drag", "legs", 0, kCaster},
-      // Rubber holds on dry floors by 0.4 to 1.2. A robot that is driven too hard slips there, too.
-      {"slippery_floor", "turns", kThreshold, kSlip, 0, kNothing, {}, 0.3},
+      // A robot that is driven too hard slips on ordinary floors, too.
+      {"slippery_floor", "turns", kThreshold, kSlip, 0, kNothing, {}, kOrdinaryFriction},
       {"slippery_patch", "place", kOfAPlace | kDisc | kThreshold, kPlace},
       {"bump", "place", kOfAPlace},
       {"uneven_floor", "place"},

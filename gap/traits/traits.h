@@ -7,6 +7,9 @@
 
 namespace umbsim::gap {
 
+/// Of the most slippery floor that is ordinary: rubber holds on dry ones by 0.4 to 1.2.
+constexpr double kOrdinaryFriction = 0.3;
+
 /// Kinds of effects that errors of a model are taken for, as bits.
 enum Looks : unsigned {
   kNothing = 0,
