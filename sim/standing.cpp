@@ -140,7 +140,8 @@ void World::State::watch_standing() {
     stood_heading_rad = heading_rad;
   }
   const double upright = body.rotation()(2, 2);
-  if (time_s <= 0 || (upright > std::cos(kTippedOver_rad) && time_s - stood_s < kMoment_s)) return;
+  const bool may_come_back = options.may_lean || time_s - stood_s < kMoment_s;
+  if (time_s <= 0 || (upright > std::cos(kTippedOver_rad) && may_come_back)) return;
   std::string lifted;
   for (std::size_t i = 0; i < supports.size(); ++i) {
     if ((i < 2 ? loads.wheel_n[i] : loads.caster_n[i - 2]) > 0) continue;

@@ -28,6 +28,8 @@ struct PhysicsOptions {
   double fine_step_s = 0.001;  ///< longest time step while a wheel is on or near a cable
   double gravity_mps2 = 9.81;
   Softness softness;
+  bool may_lean = false;  ///< a robot on one line of supports has not fallen before it leans by kTippedOver_rad: for robots
+                          ///< that were recorded, and came down again
   bool general_steps = false;  ///< take the general step always: the same to round-off, slower. For tests.
 };
 
@@ -78,7 +80,7 @@ class World {
 
   /// Simulates `duration_s`. Throws RunError if the state becomes non-finite, TippedOver if the robot no longer stands
   /// on its wheels and casters: it leans by more than kTippedOver_rad, or what touches the floor lies on one line for
-  /// longer than kMoment_s.
+  /// longer than kMoment_s, unless it may.
   void advance(double duration_s);
 
   /// The moment at the end of the last `advance`.

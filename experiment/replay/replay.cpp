@@ -115,6 +115,7 @@ Replay::Replay(const Scenario& scenario, const Recording& recording, bool by_tra
   apply(WheelRadiusScale{recording.robot.wheel_radius_m / nominal_.wheels[0].radius_m - 1}, believed);
   apply(Wheelbase{recording.robot.wheelbase_m / nominal_.wheelbase_m() - 1}, believed);
   nominal_ = believed.robot;
+  scenario_.physics.may_lean = true;
   steps_ = std::max(1, int(std::ceil(1 / recording.encoder_rate_hz / scenario.physics.step_s - 1e-9)));
   scenario_.encoders.ticks_per_revolution = recording.robot.ticks_per_revolution;
   count_step_ = umbsim::count_step(recording);
