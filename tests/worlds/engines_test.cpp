@@ -100,6 +100,19 @@ TEST_P(Engines, CarpetCarriesWhatRolls) {
   EXPECT_NEAR(e->pose().y_m - level->pose().y_m, 0.01 * way_m, 0.1 * 0.01 * way_m);
 }
 
+// A carpet carries the robot by the mean way of its wheels: on an arc, where the outer one rolls further, it does not turn.
+TEST_P(Engines, CarpetTurnsNoRobotOnAnArc) {
+  const Rig rig = plain_rig(Size::middle);
+  const std::unique_ptr<Engine> e = built(rig), level = built(rig);
+  e->set_carpet_drift(0.01, 0);
+  drive(*e, 3, 4, 4);
+  drive(*level, 3, 4, 4);
+  const double turned_rad = level->pose().theta_rad;
+  const double by_each_wheel_rad = 0.01 * std::sin(turned_rad);
+  ASSERT_GT(by_each_wheel_rad, 0.005) << "else this shows nothing";
+  EXPECT_NEAR(e->pose().theta_rad - level->pose().theta_rad, 0, 0.1 * by_each_wheel_rad);
+}
+
 // Without grip, and without a push through the ball, a force is momentum.
 TEST_P(Engines, APullIsMomentum) {
   Rig rig = plain_rig(Size::middle);

@@ -105,7 +105,7 @@ void BulletRobot::pull() {
   model_->body().addBaseTorque({torque.x(), torque.y(), torque.z()});
 }
 
-// What a floor that moves under rolling wheels, and wheels that roll further than their shape says, add to the way.
+// What a carpet that carries the robot as it rolls, and wheels that roll further than their shape says, add to the way.
 void BulletRobot::carry() {
   double carried_m[2], further_m[2];
   for (std::size_t i = 0; i < 2; ++i) {
@@ -117,7 +117,7 @@ void BulletRobot::carry() {
   const double c = std::cos(heading_rad_), s = std::sin(heading_rad_), b = rig_.robot.wheelbase_m();
   if (drift_[0] != 0 || drift_[1] != 0) {
     const double mean_m = (carried_m[0] + carried_m[1]) / 2;
-    turn((drift_[0] * c + drift_[1] * s) * (carried_m[1] - carried_m[0]) / b, drift_[0] * mean_m, drift_[1] * mean_m);
+    turn(0, drift_[0] * mean_m, drift_[1] * mean_m);
   }
   if (further_m[0] != 0 || further_m[1] != 0) {
     const double mean_m = (further_m[0] + further_m[1]) / 2;

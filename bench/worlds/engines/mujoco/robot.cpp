@@ -199,7 +199,7 @@ void MujocoRobot::pull() {
   mju_copy3(applied + 3, torque);
 }
 
-// What a floor that moves under rolling wheels, and wheels that roll further than their shape says, add to the way.
+// What a carpet that carries the robot as it rolls, and wheels that roll further than their shape says, add to the way.
 void MujocoRobot::carry() {
   double carried_m[2], further_m[2];
   for (std::size_t i = 0; i < 2; ++i) {
@@ -214,7 +214,6 @@ void MujocoRobot::carry() {
     const double mean_m = (carried_m[0] + carried_m[1]) / 2;
     data_->qpos[0] += drift_[0] * mean_m;
     data_->qpos[1] += drift_[1] * mean_m;
-    turn((drift_[0] * c + drift_[1] * s) * (carried_m[1] - carried_m[0]) / b);
   }
   if (further_m[0] != 0 || further_m[1] != 0) {
     const double mean_m = (further_m[0] + further_m[1]) / 2;

@@ -86,7 +86,8 @@ Hold PlanarRobot::hold(WheelPart& w) {
   const Eigen::Vector2d rim_m = rim(w);
   const double lever_m = (w.wheel.radius_m - w.wheel.compliance_mpn * w.load_n + rim_m.y()) * w.rolling_factor;
   const double rolling_mps = (w.drive.wheel_radps() + pitch_radps_) * lever_m;
-  const Eigen::Vector2d carpet = std::abs(rolling_mps) * in_base(drift_);
+  const double rolled_radps = (std::abs(wheels_[0].drive.wheel_radps()) + std::abs(wheels_[1].drive.wheel_radps())) / 2;
+  const Eigen::Vector2d carpet = rolled_radps * w.wheel.radius_m * in_base(drift_);  // carries the robot, not each wheel
   Eigen::Vector2d slip((velocity - carpet).dot(w.ahead) * steep - rolling_mps, (velocity - carpet).dot(w.left));
 
   const double pressed_n = std::max(0.0, w.load_n * steep - w.along_n * uphill);
