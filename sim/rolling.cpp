@@ -39,17 +39,6 @@ double bounded(int& side, double speed, double give, double limit, bool& changes
 
 }  // namespace
 
-// An eccentric rim is taken where its wheel will be, which must be known.
-bool World::State::may_roll() const {
-  if (options.general_steps) return false;
-  for (int i = 0; i < 2; ++i) {
-    const Motor& m = drivetrain.motor[i];
-    const bool known = m.backlash_rad == 0 && m.droop_radps_per_nm == 0 && m.torque_limit_nm > 0;
-    if (robot.wheels[i].eccentricity_m > 0 && !known) return false;
-  }
-  return true;
-}
-
 // How far a support may travel in the step.
 double World::State::way_m(double step_s, bool kicked) const {
   const double speed_mps = body.velocity().segment<3>(3).norm();
@@ -58,7 +47,7 @@ double World::State::way_m(double step_s, bool kicked) const {
 
 // Those that are contacts whatever the velocity without contacts will be. False where that is not known yet.
 bool World::State::find_certain_contacts(double step_s, const std::array<double, 2>& target_radps, bool kicked) {
-  find_contacts(step_s, kSpeculative_m, way_m(step_s, kicked), target_radps);
+  find_contacts(step_s, kSpeculative_m, way_m(step_s, kicked), expected_radps(target_radps));
   return !doubtful;
 }
 

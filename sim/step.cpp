@@ -37,7 +37,7 @@ void World::State::step(double step_s, const std::array<double, 2>& target_radps
 
 void World::State::step_anywhere(double step_s, const std::array<double, 2>& target_radps, const Impulse& given) {
   const bool kicked = !given.isZero(0);
-  const bool found = may_roll() && find_certain_contacts(step_s, target_radps, kicked);
+  const bool found = !options.general_steps && find_certain_contacts(step_s, target_radps, kicked);
   DofVector u;
   if (!found || !step_rolling(step_s, target_radps, given, u)) {
     u = body.free_velocity(step_s);
@@ -60,7 +60,7 @@ bool World::State::step_with_holding_motors(double step_s, const std::array<doub
   const Eigen::Vector2d change(target_radps[0] - u[6], target_radps[1] - u[7]);
   DofVector v(kBaseAndWheels);
   v.head<kBaseAndWheels>() = u.head<kBaseAndWheels>() + held->gain.lazyProduct(change);
-  add_contacts(step_s, v, found);
+  add_contacts(step_s, v, target_radps, found);
   assemble<kBase>(held->inverse_mass.data(), kBase, kBaseAndWheels);
   solve(step_s);
 
@@ -76,7 +76,7 @@ bool World::State::step_with_holding_motors(double step_s, const std::array<doub
 }
 
 void World::State::step_with_motor_rows(double step_s, const std::array<double, 2>& target_radps, DofVector& u) {
-  add_contacts(step_s, u);
+  add_contacts(step_s, u, target_radps);
   for (int i = 0; i < 2; ++i) {
     if (drivetrain.motor[i].backlash_rad > 0)
       add_backlash(i, target_radps[i], step_s, u);

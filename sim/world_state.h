@@ -181,7 +181,6 @@ struct World::State {
   void step(double step_s, const std::array<double, 2>& target_radps);
   void step_anywhere(double step_s, const std::array<double, 2>& target_radps, const Impulse& given);
   bool step_rolling(double step_s, const std::array<double, 2>& target_radps, const Impulse& given, DofVector& u);
-  bool may_roll() const;
   double way_m(double step_s, bool kicked) const;
   bool runs_on_balls() const;
   bool is_on_plane(double step_s) const;
@@ -223,7 +222,8 @@ struct World::State {
   void add_contact(int support, const Joint& hinge, const Eigen::Vector3d& normal, double gap_m, double floor_friction,
                    double step_s, const std::array<double, 2>& wheel_radps);
   void soften_contact(Contact& c, double gap_m, double step_s) const;
-  void add_contacts(double step_s, const DofVector& u, bool found = false);
+  std::array<double, 2> expected_radps(const std::array<double, 2>& target_radps) const;
+  void add_contacts(double step_s, const DofVector& u, const std::array<double, 2>& target_radps, bool found = false);
   void add_contact_rows(const Contact& c, const DofVector& u);
   TyreSlip tyre_slip(const Support& s) const;
   double creeping_load(const Support& s) const;

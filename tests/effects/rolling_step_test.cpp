@@ -65,6 +65,9 @@ TEST(RollingStep, IsTheGeneralStepOnMotorsThatGiveWay) {
       "motor_response: {droop_radps_per_nm: 0.2}, backlash: {left_rad: 0.02, right_rad: 0.01}",
       "motor_response: {droop_radps_per_nm: 0.2, torque_limit_nm: 0.2}",
       "motor_response: {droop_radps_per_nm: 0.2}, wheel_eccentricity: {left_m: 0.002}",
+      "motor_response: {droop_radps_per_nm: 0.2}, wheel_eccentricity: {left_m: 0.002}, backlash: {left_rad: 0.02}",
+      "wheel_eccentricity: {left_m: 0.002, right_m: 0.001}, backlash: {left_rad: 0.02, right_rad: 0.01}",
+      "wheel_eccentricity: {right_m: 0.002}, slippery_floor: {friction: 0.04}, motor_response: {droop_radps_per_nm: 2}",
       "motor_response: {droop_radps_per_nm: 0.2}, caster_swivel: {trail_m: 0.03, friction_nm: 0.2}",
   };
   for (const std::string& e : effects)
