@@ -13,6 +13,9 @@ using Eigen::Vector3d;
 constexpr double kLeastLoad = 0.02;
 // Turning speed that a newton metre leaves in a sticking patch: both wheels' rows are nearly the same.
 constexpr double kSpinMobility = 1e-6;  // rad/s per N m
+// Rims off their centres touch the floor at unequal heights below the axle: as the robot leans they squeeze each other,
+// at microns per second. Tyres give that elastically; rigid ones would jam, and slide at their full friction.
+constexpr double kSqueezeMobility = 1e-8;  // m/s per N
 
 // row . u, with the size known when compiling where it is the usual one.
 double speed_along(const DofVector& row, const DofVector& u) {
@@ -37,8 +40,7 @@ std::array<double, 2> World::State::expected_radps(const std::array<double, 2>& 
 // them.
 void World::State::add_contacts(double step_s, const DofVector& u, const std::array<double, 2>& target_radps,
                                 bool found) {
-  if (!found)
-    find_contacts(step_s, kSpeculative_m + step_s * u.segment<3>(3).norm(), 0, expected_radps(target_radps));
+  if (!found) find_contacts(step_s, kSpeculative_m + step_s * u.segment<3>(3).norm(), 0, expected_radps(target_radps));
   rows = 0;
   problem.contacts = problem.motors = 0;
   problem.b.resize(kMaxRows);
@@ -118,7 +120,7 @@ void World::State::add_contact(int support, const Joint& hinge, const Vector3d& 
   if (c.friction <= 0) return;
   const TyreSlip slip = tyre_slip(s);
   c.compliance[1] = (kMobility + std::max(slip.along, slip_of_turning_patch(s, c.friction, normal))) / step_s;
-  c.compliance[2] = (kMobility + slip.across) / step_s;
+  c.compliance[2] = ((off_centre() ? kSqueezeMobility : kMobility) + slip.across) / step_s;
   c.offset[1] = c.offset[2] = 0;
   if (floor.drift_x == 0 && floor.drift_y == 0) return;
   const Vector3d surface = body.rotation().transpose() * slip.surface_mps;

@@ -313,8 +313,7 @@ bool World::State::step_rolling(double step_s, const std::array<double, 2>& targ
   start_shafts(step_s, target_radps, now);
   for (int round = 0; round < kRounds; ++round) {
     const bool free = grip.motor[0] != 0 || grip.motor[1] != 0;
-    const bool eccentric = robot.wheels[0].eccentricity_m > 0 || robot.wheels[1].eccentricity_m > 0;
-    if ((free && eccentric) || !start_rolling(step_s, now) || !hold_or_slide(step_s, given, now, motion)) break;
+    if ((free && off_centre()) || !start_rolling(step_s, now) || !hold_or_slide(step_s, given, now, motion)) break;
     if (!check_motors(motion, now)) continue;
     finish_rolling(motion, now, u);
     return true;

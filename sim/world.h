@@ -28,8 +28,8 @@ struct PhysicsOptions {
   double fine_step_s = 0.001;  ///< longest time step while a wheel is on or near a cable
   double gravity_mps2 = 9.81;
   Softness softness;
-  bool may_lean = false;  ///< a robot on one line of supports has not fallen before it leans by kTippedOver_rad: for robots
-                          ///< that were recorded, and came down again
+  bool may_lean = false;  ///< a robot on one line of supports has not fallen before it leans by kTippedOver_rad: for
+                          ///< robots that were recorded, and came down again
   bool general_steps = false;  ///< take the general step always: the same to round-off, slower. For tests.
 };
 

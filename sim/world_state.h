@@ -222,6 +222,7 @@ struct World::State {
   void add_contact(int support, const Joint& hinge, const Eigen::Vector3d& normal, double gap_m, double floor_friction,
                    double step_s, const std::array<double, 2>& wheel_radps);
   void soften_contact(Contact& c, double gap_m, double step_s) const;
+  bool off_centre() const { return robot.wheels[0].eccentricity_m > 0 || robot.wheels[1].eccentricity_m > 0; }
   std::array<double, 2> expected_radps(const std::array<double, 2>& target_radps) const;
   void add_contacts(double step_s, const DofVector& u, const std::array<double, 2>& target_radps, bool found = false);
   void add_contact_rows(const Contact& c, const DofVector& u);
