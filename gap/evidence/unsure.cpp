@@ -14,7 +14,8 @@ namespace umbsim::gap {
 namespace {
 
 // What one effect may do otherwise, as columns that all runs share: its pieces, by group of runs and part of the
-// course; what counts show of it; by part of the course the turns that what it does along, and across, may come with.
+// course; what counts show of it; by part of the course the turns that what it does along, and across, may come with,
+// and the way along that what it does across may: a wheel that slides aside has no grip left along its way.
 struct Pieces {
   explicit Pieces(const RunGroups& run_groups)
       : groups(run_groups), counts(Eigen::Index(kCourseParts * run_groups.rolling.size())) {}
@@ -22,19 +23,18 @@ struct Pieces {
   Eigen::Index piece(std::size_t run, std::size_t part) const {
     return Eigen::Index(kCourseParts * groups.group_of[run] + part);
   }
-  Eigen::Index turn(std::size_t part, int axis) const { return counts + 1 + 2 * Eigen::Index(part) + axis; }
-  Eigen::Index size() const { return turn(kCourseParts, 0); }
+  Eigen::Index besides(std::size_t part, int kind = 0) const { return counts + 1 + 3 * Eigen::Index(part) + kind; }
+  Eigen::Index size() const { return besides(kCourseParts); }
 
   Eigen::VectorXd sd(const SignatureErrors& off) const {
     Eigen::VectorXd sd(size());
     for (Eigen::Index i = 0; i < counts; ++i) sd[i] = off.parts[std::size_t(i) % kCourseParts];
     sd[counts] = off.counts;
-    for (std::size_t c = 0; c < kCourseParts; ++c) sd.segment<2>(turn(c, 0)).setConstant(off.turned * off.parts[c]);
+    for (std::size_t c = 0; c < kCourseParts; ++c) sd.segment<3>(besides(c)).setConstant(off.beside * off.parts[c]);
     return sd;
   }
 
-  // Of a run: what an effect adds to its motions, cut by part of the course, and the turns of a wheel alone that does
-  // so.
+  // Of a run: what an effect adds to its motions, cut by part of the course, and what may come beside that.
   Eigen::MatrixXd tracks(std::size_t run, const TrackFilter& filter, const std::vector<CoursePart>& parts,
                          const Impulses3& added, double wheelbase_m) const {
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(3 * Eigen::Index(parts.size()), size());
@@ -44,11 +44,13 @@ struct Pieces {
         if (parts[k] == c) cut[k] = added[k];
       }
       columns.col(piece(run, c)) = filter.propagate(cut);
-      for (int axis = 0; axis < 2; ++axis) {
-        Impulses3 turns(added.size(), Eigen::Vector3d::Zero());
-        for (std::size_t k = 0; k < added.size(); ++k) turns[k][2] = cut[k][axis] / (wheelbase_m / 2);
-        columns.col(turn(c, axis)) = filter.propagate(turns);
+      std::array<Impulses3, 3> beside;
+      for (const Eigen::Vector3d& motion : cut) {
+        beside[0].emplace_back(0, 0, motion[0] / (wheelbase_m / 2));
+        beside[1].emplace_back(0, 0, motion[1] / (wheelbase_m / 2));
+        beside[2].emplace_back(motion[1], 0, 0);
       }
+      for (int kind = 0; kind < 3; ++kind) columns.col(besides(c, kind)) = filter.propagate(beside[kind]);
     }
     return columns;
   }

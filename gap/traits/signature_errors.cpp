@@ -40,7 +40,7 @@ SignatureErrors signature_errors_of(const std::string& effect) {
   // clang-format on
   const auto found = table.find(effect);
   SignatureErrors errors = found == table.end() ? rolling : found->second;
-  errors.turned = is_kinematic(effect) ? 0 : 1;
+  errors.beside = is_kinematic(effect) ? 0 : 1;
   return errors;
 }
 

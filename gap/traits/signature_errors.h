@@ -22,7 +22,8 @@ struct SignatureErrors {
   std::array<double, kCourseParts> parts{};  ///< of all that it does in a part of the course, in runs of one condition
   double motion = 0;  ///< of what it does to one motion, from sample to sample: when and how it jerks, slips, lets go
   double counts = 0;  ///< of what counts against commands show of it
-  double turned = 0;  ///< of the parts' shares of what it does along and across: may come as a turn, a wheel by itself
+  double beside = 0;  ///< of the parts' shares: of turns that what it does along and across may come with, a wheel by
+                      ///< itself, and of way along that what it does across may
 };
 
 /// Of effects whose signature follows from rolling alone, and of a name that is no effect's: hundredths.

@@ -92,6 +92,22 @@ TEST(UnsureModel, WhatSlipsAcrossMayTurnTheRobot) {
   EXPECT_GT(turned_base, 0.5 * base);
 }
 
+// Nor has it grip left along its way: on legs it rolls further, or less far. What speaks against larger wheels still is
+// what they do in turns in place, where slip across is small, and how far they go where they are larger by much.
+TEST(UnsureModel, WhatSlipsAcrossMayRollFurther) {
+  const ToedWheel t;
+  const Model straight = t.unsure(0), further = t.unsure(1);
+  const auto little = t.beside(effect("wheel_radius_scale", {{"relative", 0.002}}));
+  const auto much = t.beside(effect("wheel_radius_scale", {{"relative", 0.03}}));
+  const double before = lost(straight, t.fit, little), after = lost(further, t.fit, little);
+  const double much_before = lost(straight, t.fit, much), much_after = lost(further, t.fit, much);
+  std::printf("wheels larger by 0.2 %%: %.1f lost, %.1f where slip may roll on; by 3 %%: %.1f, %.1f\n", before, after,
+              much_before, much_after);
+  EXPECT_GT(before, 20);
+  EXPECT_LT(after, 0.5 * before);
+  EXPECT_GT(much_after, 10000);
+}
+
 // How much of a wheel's slip is lost as misfit: log density of a fit under the slip of another floor, against none.
 double lost_by_slip(const Recording& recording, const Scatter& scatter, double friction) {
   const Replay replay(scenario_of(recording, "."), recording);
