@@ -177,6 +177,30 @@ TEST(Export, SdfNamesJointsAndNumbers) {
                     "<mu>0.9</mu>"});
 }
 
+/// The number between "<key>" and "</key>".
+double element_at(const std::string& text, const std::string& key) {
+  const std::size_t at = text.find("<" + key + ">");
+  EXPECT_NE(at, std::string::npos) << key;
+  return at == std::string::npos ? NAN : std::stod(text.substr(at + key.size() + 2));
+}
+
+// Gazebo's slip is a speed per force. A creep C does as much at the twin's speed v under half of the weight:
+// 2 C v / (m g), to which the twin's own slip comes.
+TEST(Export, SdfSlipsAsTheTwinDoes) {
+  const Lab lab;
+  fs::create_directories(lab.home / "twin");
+  lab.put("twin/twin.yaml",
+          "format: umbsim-scenario/1\nfloor: {friction: 0.6}\ncourse: {linear_speed_mps: 0.2}\neffects:\n"
+          "  tyre_creep: {along: 0.02, across: 0.03, slip_along_mps_per_n: 1e-5, slip_across_mps_per_n: 2e-5}\n");
+  const std::string sdf = text_of(lab.exported("twin", "sdf") / "diff_drive.sdf");
+  constexpr double kLabmate_kg = 42, kCreepAtSpeed = 2 * 0.2 / (kLabmate_kg * 9.81);
+  constexpr double kDigits = 1e-5;  // of six
+  const double along = 0.02 * kCreepAtSpeed + 1e-5, across = 0.03 * kCreepAtSpeed + 2e-5;
+  EXPECT_NEAR(element_at(sdf, "slip1"), along, kDigits * along);
+  EXPECT_NEAR(element_at(sdf, "slip2"), across, kDigits * across);
+  EXPECT_NEAR(element_at(sdf, "mu"), 0.6, 1e-9);
+}
+
 TEST(Export, WhatAResultDoesNotHoldIsNamed) {
   const Lab lab;
   lab.put("empty/readme.txt", "nothing");
