@@ -24,18 +24,6 @@ double speed_along(const DofVector& row, const DofVector& u) {
 
 }  // namespace
 
-// Wheel speeds in a step, as far as they are known before it: those of motors that hold are their set speeds, others
-// the speeds before.
-std::array<double, 2> World::State::expected_radps(const std::array<double, 2>& target_radps) const {
-  std::array<double, 2> radps = target_radps;
-  for (int i = 0; i < 2; ++i) {
-    const Motor& m = drivetrain.motor[i];
-    const bool holds = m.backlash_rad == 0 && m.droop_radps_per_nm == 0 && m.torque_limit_nm > 0;
-    if (!holds) radps[std::size_t(i)] = body.velocity()[6 + i];
-  }
-  return radps;
-}
-
 // All contacts of a step, and a row of the general step for each of their directions. `found`: find_contacts() has
 // them.
 void World::State::add_contacts(double step_s, const DofVector& u, const std::array<double, 2>& target_radps,

@@ -6,9 +6,6 @@
 // the same equations as A x + b = 0 of the general step (docs/physics.md), solved for u instead of the impulses
 // x = -C^-1 (J u + offset). Each contact enters as a tensor of three by three at its place. Where one slides, opens or
 // closes, its impulse is another function of the velocity, and Newton's method finds where all of them balance.
-//
-// The file is long because it is this one algorithm: its pieces share the state of a step and are of use to nothing
-// else.
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -63,22 +60,6 @@ void World::State::start_contact(const Contact& c, const Rolling& now, Sticking&
   }
   sticking.leg = s.joint >= 2 ? (s.joint - 2) / 2 : -1;
   for (int i = 0; i < c.lever.joints; ++i) sticking.known += before[6 + c.lever.joint[i]] * c.lever.turn_m[i];
-}
-
-// As add_backlash() of the general step; the wheel's speed without contacts is the one before.
-void World::State::start_shafts(double step_s, const std::array<double, 2>& target_radps, Rolling& now) const {
-  for (int i = 0; i < 2; ++i) {
-    const Motor& m = drivetrain.motor[i];
-    Shaft& shaft = now.shaft[i] = {0, target_radps[i], m.torque_limit_nm * step_s};
-    const double gives = motor_compliance(i, step_s);
-    if (gives > 0 && m.torque_limit_nm > 0) shaft.give = 1 / gives;
-    if (m.backlash_rad <= 0) continue;
-    const double play_rad = shaft_rad[i] - body.joint_angle(i), lag_radps = body.velocity()[6 + i] - target_radps[i];
-    const double forward = (m.backlash_rad / 2 - play_rad) / step_s,
-                 backward = (m.backlash_rad / 2 + play_rad) / step_s;
-    shaft.side = lag_radps + forward <= -lag_radps + backward ? 1 : -1;
-    shaft.radps = shaft.side > 0 ? target_radps[i] - forward : target_radps[i] + backward;
-  }
 }
 
 // One spring carries both: the floor's and a cable's.
@@ -225,45 +206,6 @@ bool World::State::hold(double step_s, const Impulse& given, Rolling& now, Stick
       return true;
   }
   return false;
-}
-
-// What a motor does that was supposed to be in the state of `grip`: it holds its wheel within its limit, is at its
-// limit and still behind its set speed, or has play that does not close.
-int World::State::motor_state(int wheel, double impulse, double radps, const Rolling& now) const {
-  const Shaft& shaft = now.shaft[wheel];
-  const int state = grip.motor[wheel];
-  if (shaft.limit <= 0) return 0;
-  if (state == 0) {
-    if (shaft.side * impulse < 0) return 2;
-    return (impulse > shaft.limit) - (impulse < -shaft.limit);
-  }
-  const int way = state == 2 ? shaft.side : state;
-  const double gives_way_radps = state != 2 && shaft.give > 0 ? shaft.limit / shaft.give : 0;
-  const bool behind = way * (radps - shaft.radps) < -gives_way_radps;
-  return behind == (state != 2) ? state : 0;
-}
-
-bool World::State::check_motors(const StickingProblem& motion, const Rolling& now) {
-  double impulse[2], radps[2];
-  for (int i = 0; i < 2; ++i) {
-    const Wheel& w = robot.wheels[i];
-    const double before_radps = body.velocity()[6 + i];
-    impulse[i] = w.spin_inertia_kgm2 * (w.axis.dot(motion.turning()) + now.wheel_radps[i] - before_radps);
-    radps[i] =
-        now.held.wheel_leg[i] < 0 ? now.wheel_radps[i] : before_radps + motion.wheel_radps(now.held.wheel_leg[i]);
-  }
-  for (int i = 0; i < contacts; ++i) {
-    const int wheel = supports[contact[i].support].wheel;
-    if (wheel >= 0) impulse[wheel] -= contact[i].lever.turn_m[0].dot(now.force[i]);
-  }
-  bool same = true;
-  for (int i = 0; i < 2; ++i) {
-    if (now.shaft[i].give > 0) impulse[i] = now.shaft[i].give * (now.shaft[i].radps - radps[i]);
-    const int state = motor_state(i, impulse[i], radps[i], now);
-    same = same && state == grip.motor[i];
-    grip.motor[i] = state;
-  }
-  return same;
 }
 
 // Rows that the forces of the contacts are written into, in the order of the general step.

@@ -94,20 +94,6 @@ void World::State::step_with_motor_rows(double step_s, const std::array<double, 
   for (int i = 0; i < rows; ++i) u += response[i] * impulses[i];
 }
 
-// Speed control in proportion, torque = (set speed - speed) / droop: a compliance of the motor's row. While the robot
-// is set down its motors hold.
-double World::State::motor_compliance(int wheel, double step_s) const {
-  return time_s < 0 ? 0 : drivetrain.motor[wheel].droop_radps_per_nm / step_s;
-}
-
-void World::State::add_motor(int wheel, double target_radps, double step_s, const DofVector& u) {
-  problem.motor[problem.motors++] = {rows, drivetrain.motor[wheel].torque_limit_nm * step_s};
-  row[rows] = DofVector::Unit(body.dofs(), 6 + wheel);
-  compliance[rows] = motor_compliance(wheel, step_s);
-  problem.b[rows] = u[6 + wheel] - target_radps;
-  ++rows;
-}
-
 // Dry friction, at most M; swivelling at less than kSwivelFade of the rolling rate it is in proportion to the rate,
 // hence a compliance kSwivelFade * rate / M of the row.
 void World::State::add_swivel_friction(double step_s, const DofVector& u) {
@@ -121,46 +107,6 @@ void World::State::add_swivel_friction(double step_s, const DofVector& u) {
     problem.b[rows] = u[6 + fork];
     ++rows;
   }
-}
-
-// A one-sided row at the end of the play that would be reached first: there the motor's shaft can push the wheel, but
-// not pull it.
-void World::State::add_backlash(int wheel, double target_radps, double step_s, const DofVector& u) {
-  const Motor& m = drivetrain.motor[wheel];
-  const double play_rad = shaft_rad[wheel] - body.joint_angle(wheel);
-  const double lag_radps = u[6 + wheel] - target_radps;
-  const double forward = lag_radps + (m.backlash_rad / 2 - play_rad) / step_s;
-  const double backward = -lag_radps + (m.backlash_rad / 2 + play_rad) / step_s;
-  const double side = forward <= backward ? 1 : -1;
-  problem.motor[problem.motors++] = {rows, m.torque_limit_nm * step_s, 0};
-  row[rows] = DofVector::Unit(body.dofs(), 6 + wheel) * side;
-  compliance[rows] = motor_compliance(wheel, step_s);
-  problem.b[rows] = std::min(forward, backward);
-  ++rows;
-}
-
-// The shaft turns at its set-point; where the wheel cannot follow, the end of the play stops it.
-void World::State::move_shafts(double step_s, const std::array<double, 2>& target_radps) {
-  for (int i = 0; i < 2; ++i) {
-    const double half = drivetrain.motor[i].backlash_rad / 2;
-    const double angle_rad = body.joint_angle(i);
-    shaft_rad[i] = std::clamp(shaft_rad[i] + target_radps[i] * step_s, angle_rad - half, angle_rad + half);
-  }
-}
-
-// Set-points of the step that ends at `part` of the control period: the ramp to the new command, behind gain, deadband
-// and lag. A lag's exact answer to what is wanted, in the mean over the step: a lag shorter than the step is one, too.
-std::array<double, 2> World::State::follow_commands(double step_s, double part) {
-  std::array<double, 2> mean_radps;
-  for (int i = 0; i < 2; ++i) {
-    const Motor& m = drivetrain.motor[i];
-    double wanted = m.gain * ((1 - part) * last_command_radps[i] + part * command_radps[i]);
-    if (std::abs(wanted) < m.deadband_radps) wanted = 0;
-    const double follow = m.lag_s > 0 ? 1 - std::exp(-step_s / m.lag_s) : 1;
-    mean_radps[i] = wanted + (set_point_radps[i] - wanted) * follow * m.lag_s / step_s;
-    set_point_radps[i] += follow * (wanted - set_point_radps[i]);
-  }
-  return mean_radps;
 }
 
 Impulse World::State::given_impulse(double step_s) const {

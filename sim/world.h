@@ -80,7 +80,7 @@ class World {
 
   /// Simulates `duration_s`. Throws RunError if the state becomes non-finite, TippedOver if the robot no longer stands
   /// on its wheels and casters: it leans by more than kTippedOver_rad, or what touches the floor lies on one line for
-  /// longer than kMoment_s, unless it may.
+  /// longer than kMoment_s, unless PhysicsOptions::may_lean.
   void advance(double duration_s);
 
   /// The moment at the end of the last `advance`.

@@ -201,17 +201,17 @@ void MujocoRobot::pull() {
 
 // What a carpet that carries the robot as it rolls, and wheels that roll further than their shape says, add to the way.
 void MujocoRobot::carry() {
-  double carried_m[2], further_m[2];
+  double rolled_by_both_m = 0, further_m[2];
   for (std::size_t i = 0; i < 2; ++i) {
     WheelPart& w = wheels_[i];
     const double angle_rad = turned(int(i)), rolled_m = (angle_rad - w.last_rad) * w.radius_m;
     w.last_rad = angle_rad;
-    carried_m[i] = std::abs(rolled_m);
+    rolled_by_both_m += std::abs(rolled_m);
     further_m[i] = (w.rolling_factor - 1) * rolled_m;
   }
   const double c = std::cos(heading_rad_), s = std::sin(heading_rad_), b = rig_.robot.wheelbase_m();
   if (drift_[0] != 0 || drift_[1] != 0) {
-    const double mean_m = (carried_m[0] + carried_m[1]) / 2;
+    const double mean_m = rolled_by_both_m / 2;
     data_->qpos[0] += drift_[0] * mean_m;
     data_->qpos[1] += drift_[1] * mean_m;
   }
