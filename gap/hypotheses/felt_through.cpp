@@ -27,14 +27,35 @@ GivesWay motors(double inertia_kgm2) {
 }
 
 GivesWay tyres() {
-  constexpr double kTypical = 0.01;  // slip per traction ratio, of hard tyres
-  return {"tyres that creep", {"log tyre_creep", 0, 0.2, 1, -3, 2}, [](double times) {
+  constexpr double kTypical = 0.01;  // slip per traction ratio, of hard tyres; no pull is felt on harder ones
+  return {"tyres that creep", {"log tyre_creep", 0, 0.2, 1.5, 0, 3.9}, [](double times) {
             return creeping(kTypical * times, kTypical * times);
           }};
 }
 
+namespace {
+
+// The likeliest logarithm t of how many times as much as is typical gives way, where the product is `standard_pulls`
+// times as large as a pull's standard deviation: of (standard_pulls exp(-t))^2 + (t / sd)^2 the least, by Newton.
+double likeliest_log_times(double standard_pulls, double sd) {
+  double t = 0;
+  for (int i = 0; i < 50; ++i) {
+    const double pull2 = standard_pulls * standard_pulls * std::exp(-2 * t), stiffness = 1 / (sd * sd);
+    t -= (t * stiffness - pull2) / (stiffness + 2 * pull2);
+  }
+  return t;
+}
+
+}  // namespace
+
 Hypothesis felt_through(const GivesWay& gives_way, Hypothesis pull) {
   const Eigen::Index own = Eigen::Index(pull.parameters.size());
+  const FreeParameter log_times = gives_way.log_times;
+  const Eigen::VectorXd pull_sd = prior_sd_of({pull});
+  pull.likelier = [=](Eigen::VectorXd& p) {
+    const double t = likeliest_log_times(p.head(own).cwiseQuotient(pull_sd).norm(), log_times.prior_sd);
+    p[own] = std::clamp(t, log_times.min, log_times.max);
+  };
   pull.variant += ", " + gives_way.what;
   pull.parameters.push_back(gives_way.log_times);
   pull.of_others = 1;

@@ -129,11 +129,23 @@ Hypothesis load() {
   return hypothesis;
 }
 
-// A caster that drags beside the middle also turns the robot, and it carries another share of the load there.
-Hypothesis drag_beside_middle(const char* side, double left_m) {
-  Hypothesis hypothesis = from_start(
-      direct("caster_drag", side, {positive("coefficient", 0.02, 0.04), signed_one("left_m", 0.01, 0.05)}), 0.03);
-  hypothesis.parameters[1].start = left_m;
+// A caster that drags beside the middle also turns the robot: as much as drags to its left, less what drags to its
+// right.
+Hypothesis drag_of_sides() {
+  const EffectInfo& info = find_effect("caster_drag");
+  const EffectValues base = neutral_effect(info).values;
+  const std::size_t coefficient = index_of(info, "coefficient");
+  const std::size_t left = index_of(info, "left_m");
+  constexpr double kBeside_m = 0.1;
+  Hypothesis hypothesis{
+      "caster_drag", "both sides", {positive("left", 0.02, 0.04), positive("right", 0.02, 0.04)}, {}, {}, true, 0};
+  hypothesis.values = [=](const Eigen::VectorXd& p) {
+    EffectValues values = base;
+    const double sum = p[0] + p[1];
+    values.numbers[coefficient] = sum;
+    values.numbers[left] = sum > 0 ? kBeside_m * (p[0] - p[1]) / sum : 0;
+    return values;
+  };
   return hypothesis;
 }
 
@@ -215,9 +227,9 @@ std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revol
                         {{"trail_m", 0.03}, {"friction_nm", 0.1}}),
                  1.5),
       direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.04)}),
-      drag_beside_middle("left of it", 0.05),
-      drag_beside_middle("right of it", -0.05),
+      drag_of_sides(),
       felt_through(motor, direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.1)})),
+      felt_through(tyres(), drag_of_sides()),
       from_start(direct("slippery_floor", "friction", {{"friction", 0, 2e-4, 0.2, 0.01, 0.8}}), 0.06),
       vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5),
       felt_through(motor, vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.05, 0.5)),

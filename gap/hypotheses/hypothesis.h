@@ -32,8 +32,10 @@ struct Hypothesis {
   bool from_zero = true;    ///< acts in proportion near zero; false: fitted from its start, by repeated simulation
   double search_cost = 0;   ///< log of the number of places or moments that were looked at
   double variant_cost = 0;  ///< log of the number of hypotheses of the same effect, which are all tried, or of a prior
-  int of_others = 0;        ///< how many numbers, the last ones, are of what goes with it; without the first ones it is off
+  int of_others = 0;  ///< how many numbers, the last ones, are of what goes with it; without the first ones it is off
   bool shape_unknown = false;  ///< its numbers say how strong it is, not where: it is named, and added to no twin
+  /// From numbers that derivatives at zero foretell to as likely ones that do the same.
+  std::function<void(Eigen::VectorXd& p)> likelier = nullptr;
 };
 
 /// The effect with everything that goes with it.

@@ -193,6 +193,7 @@ std::vector<Screen::Candidate> Screen::by_derivatives(const Fit& fit,
         possible = false;
       }
     }
+    if (c.hypothesis.likelier) c.hypothesis.likelier(c.start);
     if (possible) c.p_value = chi_squared_tail(misfit_without[e.prior] - e.misfit, count);
     candidates.push_back(std::move(c));
   }

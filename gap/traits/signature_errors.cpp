@@ -29,7 +29,7 @@ SignatureErrors signature_errors_of(const std::string& effect) {
       {"contact_patch",         {{1.0,  1.0,  1.0,  1.0},  0.3,  0.1}},
       {"tyre_creep",            {{0.2,  0.2,  0.2,  0.2},  0.2,  0.1}},
       {"caster_swivel",         {{0.2,  0.2,  0.2,  0.2},  0.3,  0.1}},
-      {"caster_drag",           {{0.2,  0.2,  0.2,  0.2},  0.2,  0.1}},
+      {"caster_drag",           {{1.0,  1.0,  1.0,  1.0},  0.3,  0.1}},
       {"slippery_floor",        {{1.0,  1.0,  1.0,  1.0},  0.5,  0.1}},
       {"slippery_patch",        {{0.3,  0.3,  0.2,  0.4},  0.3,  0.1}},
       {"bump",                  {{0.25, 0.25, 0.1,  0.1},  0.3,  0.1}},

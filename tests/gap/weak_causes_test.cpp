@@ -173,6 +173,19 @@ TEST(WeakCause, ADragThatCountsAloneShow) {
   EXPECT_TRUE(holds(estimate(d, "coefficient"), friction));
 }
 
+// Beside the middle it turns the robot as well, as far as the tyres creep. Nobody says by how much these do: the runs
+// tell which side drags, and drag and creep together.
+TEST(WeakCause, ADragBesideTheMiddleOnTyresThatCreep) {
+  const double friction = 0.1, left_m = -0.06;
+  const Subject p(campaign({effect("caster_drag", {{"coefficient", friction}, {"left_m", left_m}}),
+                            effect("tyre_creep", {{"along", 0.03}, {"across", 0.03}})},
+                           96));
+  const Diagnosis d = p.diagnosed();
+  ASSERT_EQ(d.causes.front().name, "caster_drag");
+  EXPECT_TRUE(holds(estimate(d, "coefficient"), friction));
+  EXPECT_TRUE(holds(estimate(d, "left_m"), left_m));
+}
+
 // Casters have friction, and few servos are stiff: that much is no effect.
 TEST(WeakCause, AnOrdinaryCasterOnMotorsThatGiveWay) {
   const Subject p(campaign(
