@@ -1,6 +1,7 @@
 #include "gap/hypotheses/felt_through.h"
 
 #include <algorithm>
+#include <boost/math/special_functions/lambert_w.hpp>
 #include <cmath>
 #include <utility>
 
@@ -36,14 +37,10 @@ GivesWay tyres() {
 namespace {
 
 // The likeliest logarithm t of how many times as much as is typical gives way, where the product is `standard_pulls`
-// times as large as a pull's standard deviation: of (standard_pulls exp(-t))^2 + (t / sd)^2 the least, by Newton.
+// times as large as a pull's standard deviation: (standard_pulls exp(-t))^2 + (t / sd)^2 is least, 2 t exp(2 t) there
+// 2 (standard_pulls sd)^2.
 double likeliest_log_times(double standard_pulls, double sd) {
-  double t = 0;
-  for (int i = 0; i < 50; ++i) {
-    const double pull2 = standard_pulls * standard_pulls * std::exp(-2 * t), stiffness = 1 / (sd * sd);
-    t -= (t * stiffness - pull2) / (stiffness + 2 * pull2);
-  }
-  return t;
+  return boost::math::lambert_w0(2 * std::pow(standard_pulls * sd, 2)) / 2;
 }
 
 }  // namespace

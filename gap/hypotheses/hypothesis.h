@@ -34,7 +34,7 @@ struct Hypothesis {
   double variant_cost = 0;  ///< log of the number of hypotheses of the same effect, which are all tried, or of a prior
   int of_others = 0;  ///< how many numbers, the last ones, are of what goes with it; without the first ones it is off
   bool shape_unknown = false;  ///< its numbers say how strong it is, not where: it is named, and added to no twin
-  /// From numbers that derivatives at zero foretell to as likely ones that do the same.
+  /// Moves numbers that derivatives at zero foretell to the likeliest ones that do the same; may be empty.
   std::function<void(Eigen::VectorXd& p)> likelier = nullptr;
 };
 
