@@ -41,6 +41,7 @@ void World::State::find_contacts(double step_s, double watch_m, double doubt_m,
                                  const std::array<double, 2>& wheel_radps) {
   contacts = 0;
   doubtful = false;
+  spinning_radps = wheel_radps;
   const Matrix3d R_BW = body.rotation().transpose();
   const bool plain = floor.ripples.empty() && floor.cables.empty() && floor.patches.empty();
   for (int i = 0; i < int(supports.size()); ++i) {
@@ -111,7 +112,8 @@ void World::State::add_contact(int support, const Joint& hinge, const Vector3d& 
   c.compliance[2] = ((off_centre() ? kSqueezeMobility : kMobility) + slip.across) / step_s;
   c.offset[1] = c.offset[2] = 0;
   if (floor.drift_x == 0 && floor.drift_y == 0) return;
-  const Vector3d surface = body.rotation().transpose() * slip.surface_mps;
+  const Eigen::AngleAxisd back(-0.5 * step_s * turning_radps(normal), normal);  // as seen in the middle of the step
+  const Vector3d surface = back * (body.rotation().transpose() * slip.surface_mps);
   for (int i = 1; i < 3; ++i) c.offset[i] = -surface.dot(c.direction[i]);
 }
 
@@ -142,7 +144,7 @@ TyreSlip World::State::tyre_slip(const Support& s) const {
   const Wheel& w = robot.wheels[s.wheel];
   if (!w.gives_way() && floor.drift_x == 0 && floor.drift_y == 0) return {};
   const double speed = std::abs(body.velocity()[6 + s.wheel]) * w.radius_m;
-  const double rolled = (std::abs(body.velocity()[6]) + std::abs(body.velocity()[7])) / 2 * w.radius_m;  // by the robot
+  const double rolled = (std::abs(spinning_radps[0]) + std::abs(spinning_radps[1])) / 2 * w.radius_m;  // by the robot
   const double load_n = creeping_load(s);
   return {w.creep_along * speed / load_n + w.slip_along_mps_per_n,
           w.creep_across * speed / load_n + w.slip_across_mps_per_n,
@@ -151,6 +153,15 @@ TyreSlip World::State::tyre_slip(const Support& s) const {
 
 double World::State::creeping_load(const Support& s) const {
   return std::max(load(s), kLeastLoad * robot.total_mass_kg() * options.gravity_mps2);
+}
+
+// How fast the robot turns about the normal: as in the step before, and as much faster as its wheels turn now.
+double World::State::turning_radps(const Vector3d& normal) const {
+  const DofVector& u = body.velocity();
+  double more_mps = 0;
+  for (std::size_t i = 0; i < 2; ++i)
+    more_mps += (i == 0 ? -1 : 1) * robot.wheels[i].radius_m * (spinning_radps[i] - u[6 + Eigen::Index(i)]);
+  return normal.dot(u.head<3>()) + more_mps / robot.wheelbase_m();
 }
 
 // Where a line of width w turns at omega on the floor, its points slide either way, and only what slides more on one

@@ -49,6 +49,7 @@ Snapshot World::snapshot() const {
   for (std::size_t i = 0; i < s.supports.size(); ++i) now.spring_up_m[i] = s.supports[i].up_m;
   now.loads = s.loads;
   now.time_s = s.time_s;
+  now.last_step_s = s.last_step_s;
   now.heading_rad = s.heading_rad;
   now.impulses = s.impulses;
   return now;
@@ -76,6 +77,8 @@ void World::resume(const Snapshot& then, const Pose2& X_moved) {
   }
   s.loads = then.loads;
   s.time_s = then.time_s;
+  s.last_step_s = then.last_step_s;
+  s.by_rolling = false;
   s.set_heading(then.heading_rad + X_moved.theta_rad);
   s.stood_s = then.time_s;
   s.impulses = then.impulses;

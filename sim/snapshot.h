@@ -25,6 +25,7 @@ struct Snapshot {
   std::array<double, 8> spring_up_m{};  ///< of the supports
   SupportLoads loads;
   double time_s = 0;
+  double last_step_s = 0;
   double heading_rad = 0;
   RowVector impulses;  ///< of the last step: where the contact solver begins
 };

@@ -17,10 +17,18 @@ constexpr double kSmallTurn = 0.03;  // in a step; the series' next term is belo
 }  // namespace
 
 void World::State::step(double step_s, const std::array<double, 2>& target_radps) {
+  find_speeds(step_s, target_radps);
+  move_on(step_s, target_radps);
+}
+
+void World::State::find_speeds(double step_s, const std::array<double, 2>& target_radps) {
   const Impulse given = given_impulse(step_s);
   const bool kicked = !given.isZero(0);
   if (kicked || !is_on_plane(step_s) || !step_on_plane(step_s, target_radps))
     step_anywhere(step_s, target_radps, given);
+}
+
+void World::State::move_on(double step_s, const std::array<double, 2>& target_radps) {
   count(report);
   note_loads(step_s);
   note_strain(step_s);
@@ -31,6 +39,7 @@ void World::State::step(double step_s, const std::array<double, 2>& target_radps
   track_heading();
   ++cost.steps;
   cost.simulated_s += step_s;
+  last_step_s = step_s;
   check_finite();
   watch_standing();
 }
@@ -40,6 +49,7 @@ void World::State::step_anywhere(double step_s, const std::array<double, 2>& tar
   const bool found = !options.general_steps && find_certain_contacts(step_s, target_radps, kicked);
   DofVector u;
   if (!found || !step_rolling(step_s, target_radps, given, u)) {
+    ++cost.general_steps;
     u = body.free_velocity(step_s);
     if (kicked) u += body.inverse_mass().leftCols<6>().lazyProduct(given);
     if (!step_with_holding_motors(step_s, target_radps, found && !kicked, u))

@@ -9,14 +9,19 @@ constexpr double kSliding = 0.999;  // of the friction limit
 
 }  // namespace
 
+// Whether this contact is a wheel's at its friction limit, less what is to be spared.
+bool World::State::wheel_slides(int i, double spare_ns) const {
+  const ContactRows& c = problem.contact[i];
+  if (contact_support[i] > 1 || c.friction <= 0 || impulses[c.normal] <= 0) return false;
+  if (spare_ns == 0 && report.outcome == SolveOutcome::stick) return false;
+  const double limit = kSliding * c.friction * impulses[c.normal] - spare_ns;
+  return limit < 0 || impulses.segment<2>(c.normal + 1).squaredNorm() > limit * limit;
+}
+
 void World::State::note_strain(double step_s) {
   if (time_s < 0) return;
-  for (int i = 0; i < problem.contacts && report.outcome != SolveOutcome::stick; ++i) {
-    const ContactRows& c = problem.contact[i];
-    if (contact_support[i] > 1 || c.friction <= 0) continue;
-    const double limit = kSliding * c.friction * impulses[c.normal];
-    const bool slides = limit > 0 && impulses.segment<2>(c.normal + 1).squaredNorm() > limit * limit;
-    if (slides) strain[contact_support[i]].slid_s += step_s;
+  for (int i = 0; i < problem.contacts; ++i) {
+    if (wheel_slides(i)) strain[contact_support[i]].slid_s += step_s;
   }
   for (int i = 0; i < 2; ++i) {
     auto& s = strain[i];
@@ -31,6 +36,15 @@ void World::State::note_strain(double step_s) {
     s.longest_from_s = time_s + step_s - s.since_s;
   }
 }
+
+bool World::State::slides(double spare_ns) const {
+  for (int i = 0; i < problem.contacts; ++i) {
+    if (wheel_slides(i, spare_ns)) return true;
+  }
+  return false;
+}
+
+bool World::slides() const { return state_->slides(); }
 
 WheelStrain World::strain(int wheel) const {
   const auto& s = state_->strain[wheel];

@@ -166,6 +166,8 @@ void World::advance(double duration_s) {
   State& s = *state_;
   const double longest_s = s.near_cable(0, kNearCable_m) ? s.options.fine_step_s : s.options.step_s;
   const int steps = std::max(1, int(std::ceil(duration_s / longest_s - 1e-9)));
+  if (s.by_rolling) s.as_after_one_of(duration_s / steps);
+  s.by_rolling = false;
   for (int k = 1; k <= steps; ++k) {
     s.step(duration_s / steps, s.follow_commands(duration_s / steps, double(k) / steps));
   }

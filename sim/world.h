@@ -36,6 +36,7 @@ struct PhysicsOptions {
 /// What the world counted, to be reported and explained.
 struct PhysicsCost {
   std::int64_t steps = 0;
+  std::int64_t general_steps = 0;     ///< steps that no quicker one could take
   std::int64_t newton_steps = 0;      ///< steps with sliding, lift-off or a saturated motor
   std::int64_t solver_fallbacks = 0;  ///< steps in which the direct solver gave up
   double simulated_s = 0;
@@ -83,6 +84,12 @@ class World {
   /// longer than kMoment_s, unless PhysicsOptions::may_lean.
   void advance(double duration_s);
 
+  /// The same in one time step, however long, with wheels that turn at `mean_radps` (left, right) and end at the
+  /// commanded speeds. Only where that is as good as many short steps: a robot with round wheels on rigid axles and
+  /// without play rolls on a floor that is even there, nothing pushes it, and no wheel slides, nor would where the
+  /// robot is accelerated by `peak_mps2` more for a moment. Else false, and nothing has happened. Throws as `advance`.
+  bool roll(const std::array<double, 2>& mean_radps, double duration_s, double peak_mps2 = 0);
+
   /// The moment at the end of the last `advance`.
   Snapshot snapshot() const;
   /// Goes on from a moment of a world with the same robot, drivetrain and options, on this world's floor. `X_moved`:
@@ -114,6 +121,8 @@ class World {
   Eigen::Vector3d up() const;
   const SupportLoads& loads() const;
   WheelStrain strain(int wheel) const;
+  /// Whether a wheel slid in the last time step.
+  bool slides() const;
   /// How far the suspension has moved a support up into the robot: left and right wheel, then casters.
   double spring_up_m(int support) const;
   /// How it stands as it is now.

@@ -121,8 +121,8 @@ struct OnPlane {
 enum class Laws { hold, change, slide };
 
 /// Everything that a world holds. world.cpp: the interface; step.cpp: one time step; contact_rows.cpp: what touches;
-/// rolling.cpp: the step of most moments; plane.cpp: the same on a plane; placing.cpp: how the robot is set down;
-/// springs.cpp: what carries it; strain.cpp: how its wheels were loaded.
+/// rolling.cpp: the step of most moments; plane.cpp: the same on a plane; long_step.cpp: one of any length;
+/// placing.cpp: how the robot is set down; springs.cpp: what carries it; strain.cpp: how its wheels were loaded.
 struct World::State {
   RobotModel robot;
   Drivetrain drivetrain;
@@ -145,7 +145,9 @@ struct World::State {
   struct {
     double least_n = 0, sum_ns = 0, unloaded_s = 0, since_s = 0, longest_s = 0, longest_from_s = 0, slid_s = 0;
   } strain[2];
-  double time_s = -1;  // since place; pushes act from 0 on
+  double last_step_s = 0;
+  bool by_rolling = false;  // that one
+  double time_s = -1;       // since place; pushes act from 0 on
   double heading_rad = 0;
   double ahead_x = 1, ahead_y = 0;  // of the base's x axis when it was turned by that
   bool on_balls = false;            // the robot may take the step on a plane
@@ -163,8 +165,9 @@ struct World::State {
   int contact_support[8]{};
   Contact contact[8];
   int contacts = 0;
-  bool doubtful = false;  // whether a support is nearly near enough to be one of them
-  Grip grip;              // of the last rolling step
+  std::array<double, 2> spinning_radps{};  // of the wheels in this step, as far as it is known before
+  bool doubtful = false;                   // whether a support is nearly near enough to be one of them
+  Grip grip;                               // of the last rolling step
   RowVector impulses;
   SolveReport report;
 
@@ -179,6 +182,14 @@ struct World::State {
   std::array<double, 2> follow_commands(double step_s, double part);
   double motor_compliance(int wheel, double step_s) const;
   void step(double step_s, const std::array<double, 2>& target_radps);
+  void find_speeds(double step_s, const std::array<double, 2>& target_radps);
+  void move_on(double step_s, const std::array<double, 2>& target_radps);
+  bool one_step_will_do(double step_s, const std::array<double, 2>& target_radps) const;
+  bool roll(double step_s, const std::array<double, 2>& target_radps, double peak_mps2);
+  void end_at(const std::array<double, 2>& wheel_radps);
+  void as_after_one_of(double step_s);
+  bool wheel_slides(int i, double spare_ns = 0) const;
+  bool slides(double spare_ns = 0) const;
   void step_anywhere(double step_s, const std::array<double, 2>& target_radps, const Impulse& given);
   bool step_rolling(double step_s, const std::array<double, 2>& target_radps, const Impulse& given, DofVector& u);
   double way_m(double step_s, bool kicked) const;
@@ -228,6 +239,7 @@ struct World::State {
   void add_contact_rows(const Contact& c, const DofVector& u);
   TyreSlip tyre_slip(const Support& s) const;
   double creeping_load(const Support& s) const;
+  double turning_radps(const Eigen::Vector3d& normal) const;
   double slip_of_turning_patch(const Support& s, double friction, const Eigen::Vector3d& normal) const;
   TurningPatch turning_patch(const Contact& c, double step_s) const;
   void add_spin_friction(const DofVector& u, double step_s);

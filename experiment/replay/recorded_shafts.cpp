@@ -39,17 +39,6 @@ void join_latches(std::vector<double>& counts, const std::vector<EncoderSample>&
   }
 }
 
-// Rotation that wheel speeds make up to each sample. Set-points ramp from one to the next; a time step moves with the
-// speed at its end, so that with `steps` a period the ramp is a staircase that runs ahead by half a step.
-std::vector<double> commanded(const std::vector<EncoderSample>& s, const std::vector<double>& late, int steps) {
-  const double before = (steps - 1) / (2.0 * steps);
-  std::vector<double> angle(s.size());
-  for (std::size_t i = 1; i < s.size(); ++i) {
-    angle[i] = angle[i - 1] + (before * late[i - 1] + (1 - before) * late[i]) * (s[i].time_s - s[i - 1].time_s);
-  }
-  return angle;
-}
-
 // The same speeds half a time step later, so that the staircase turns the shaft as far as it did.
 std::vector<double> half_a_step_later(const std::vector<double>& speed, int steps) {
   std::vector<double> later = speed;
@@ -204,6 +193,17 @@ std::vector<double> averaged_within(const std::vector<Bounds>& bounds) {
 
 }  // namespace
 
+// A time step moves with the speed at its end, so that with `steps` a period the ramp is a staircase that runs ahead by
+// half a step.
+std::vector<double> turned_by(const std::vector<EncoderSample>& s, const std::vector<double>& radps, int steps) {
+  const double before = (steps - 1) / (2.0 * steps);
+  std::vector<double> angle(s.size());
+  for (std::size_t i = 1; i < s.size(); ++i) {
+    angle[i] = angle[i - 1] + (before * radps[i - 1] + (1 - before) * radps[i]) * (s[i].time_s - s[i - 1].time_s);
+  }
+  return angle;
+}
+
 CommandLag measured_lag(const RecordedRun& run, const RecordedRobot& robot, int steps) {
   if (!run.has_commands) return {};
   constexpr double EncoderSample::*kCommand[] = {&EncoderSample::left_command_radps,
@@ -216,14 +216,14 @@ CommandLag measured_lag(const RecordedRun& run, const RecordedRobot& robot, int 
   for (int w = 0; w < 2; ++w) {
     for (const EncoderSample& s : run.encoders) counted[w].push_back(step_rad * double(s.*kTicks[w]));
     const std::vector<double> speed = obeyed(run.encoders, kCommand[w], {});
-    all_s += 0.5 * counts_behind(speed, commanded(run.encoders, speed, steps), counted[w], heading, step_rad).lag_s;
+    all_s += 0.5 * counts_behind(speed, turned_by(run.encoders, speed, steps), counted[w], heading, step_rad).lag_s;
   }
   if (all_s <= 0) return {0, all_s};
   const auto left_rad2 = [&](double dead_s) {
     double sum = 0;
     for (int w = 0; w < 2; ++w) {
       const std::vector<double> speed = obeyed(run.encoders, kCommand[w], {dead_s, all_s - dead_s});
-      const std::vector<double> turned = commanded(run.encoders, speed, steps);
+      const std::vector<double> turned = turned_by(run.encoders, speed, steps);
       std::vector<double> ahead = counted[w];
       for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] -= turned[i];
       sum += gain_of(ahead, turned).left_rad2;
@@ -263,7 +263,7 @@ std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec
   const double late_s = std::max(0.0, lag.all_s() - latched_s);
   const double dead_s = std::clamp(lag.dead_s - latched_s, 0.0, late_s);
   const std::vector<double> asked = obeyed(s, command, {dead_s, late_s - dead_s});
-  const std::vector<double> turned = commanded(s, asked, steps);
+  const std::vector<double> turned = turned_by(s, asked, steps);
   for (std::size_t i = 0; i < s.size(); ++i) angle[i] -= turned[i];
   angle = averaged_within(between_steps(std::move(angle), turned, k * count_step / 2));
   std::vector<double> speed = half_a_step_later(speeds(angle, s), steps);

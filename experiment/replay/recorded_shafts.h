@@ -26,6 +26,10 @@ CommandLag measured_lag(const RecordedRun& run, const RecordedRobot& robot, int 
 std::vector<double> shaft_speeds(const RecordedRun& run, const EncoderSpec& spec, const EncoderFaults& faults,
                                  bool left, const CommandLag& lag, int steps, double count_step);
 
+/// Angles (rad) that a shaft has turned by at each sample, at speeds (rad/s) that ramp from one sample to the next in
+/// `steps` time steps.
+std::vector<double> turned_by(const std::vector<EncoderSample>& samples, const std::vector<double>& radps, int steps);
+
 /// What such an encoder makes of shaft angles (left, right; radians) at its samples. `step_rad`: to which it rounds; 0:
 /// not at all.
 std::vector<std::array<double, 2>> arrived(const std::vector<std::array<double, 2>>& shaft,

@@ -10,9 +10,9 @@
 
 #include "core/error.h"
 #include "effects/geometry.h"
-#include "experiment/drive/commanded_course.h"
 #include "experiment/drive/drive_run.h"
 #include "experiment/drive/rolling_noise.h"
+#include "experiment/replay/even_stretches.h"
 #include "experiment/replay/recorded_shafts.h"
 #include "experiment/replay/seen_track.h"
 #include "recording/coarse_counts.h"
@@ -130,6 +130,7 @@ Replay::Replay(const Scenario& scenario, const Recording& recording, bool by_tra
     const Rig as_it_is = rig(r, {});
     believed_.push_back(as_it_is.encoders);
     shafts_.push_back(shafts(r, as_it_is));
+    even_.push_back(even(r, shafts_.back()));
   }
 }
 
@@ -210,10 +211,19 @@ std::array<std::vector<double>, 2> Replay::shafts(std::size_t index, const Rig& 
           shaft_speeds(run, e, e.right, false, lag_[index], steps_, step)};
 }
 
+std::vector<EvenStretch> Replay::even(std::size_t index, const std::array<std::vector<double>, 2>& shafts) const {
+  const std::vector<EncoderSample>& samples = recording_.runs[index].encoders;
+  return even_stretches(samples, {turned_by(samples, shafts[0], steps_), turned_by(samples, shafts[1], steps_)},
+                        {nominal_.wheels[0].radius_m, nominal_.wheels[1].radius_m}, nominal_.wheelbase_m());
+}
+
 // The way of the shafts decides how rough the floor is under the wheels, whatever else happens to the robot.
 ShaftDrive Replay::drive_of(std::size_t index, const Rig& supposed, double roughness_m_per_sqrt_m) const {
-  auto [left, right] = supposed.encoders == believed_[index] ? shafts_[index] : shafts(index, supposed);
-  ShaftDrive drive{recording_.runs[index].encoders, std::move(left), std::move(right), start_[index]};
+  const bool as_believed = supposed.encoders == believed_[index];
+  auto turning = as_believed ? shafts_[index] : shafts(index, supposed);
+  std::vector<EvenStretch> stretches = as_believed ? even_[index] : even(index, turning);
+  ShaftDrive drive{recording_.runs[index].encoders, std::move(turning[0]), std::move(turning[1]), start_[index],
+                   std::move(stretches)};
   if (roughness_m_per_sqrt_m == 0) return drive;
   RollingNoise rolling(roughness_m_per_sqrt_m, supposed);
   std::array<double, 2> shaft_rad{};
@@ -236,7 +246,8 @@ std::vector<Pose2> Replay::driven(std::size_t index, const std::vector<Effect>& 
   World world(r.robot, r.drivetrain, r.floor, scenario_.physics, pushes);
   const bool local = !r.floor.cables.empty() || !r.floor.patches.empty() || !pushes.empty();
   if (!local || !same_everywhere(r.floor)) {
-    return traced(world, drive_of(index, supposed, roughness_m_per_sqrt_m), false).track;
+    ShaftDrive drive = drive_of(index, supposed, roughness_m_per_sqrt_m);
+    return drive.rolling.empty() ? rolled(world, drive) : traced(world, std::move(drive), false).track;
   }
   std::vector<Effect> elsewhere;
   std::copy_if(effects.begin(), effects.end(), std::back_inserter(elsewhere),
@@ -270,28 +281,6 @@ std::vector<std::array<double, 2>> Replay::counts(std::size_t index, const std::
   const double step = coarse_step(r);
   const double step_rad = step > 1 ? 2 * M_PI / recording_.robot.ticks_per_revolution * step : 0;
   return arrived(shaft, run.encoders, r.encoders, step_rad);
-}
-
-CommandFeatures Replay::asked(const CommandedMotion& motion) const {
-  const Recording course = commanded(recording_, motion);
-  std::vector<std::vector<Stretch>> all;
-  for (const RecordedRun& run : course.runs) all.push_back(umbsim::stretches(run, course.robot));
-  return measured_command_features(course, all, 1);
-}
-
-CommandFeatures Replay::command_features(const std::vector<Effect>& effects) const {
-  const Rig r = rig(0, effects);
-  const double period_s = 1 / recording_.encoder_rate_hz;
-  CommandFeatures h{};
-  const double accelerations = std::log(r.commanded_motion.acceleration_factor);
-  const double turns = std::log(r.commanded_motion.turn_speed_factor);
-  if (accelerations != 0 || turns != 0) {
-    h = asked(r.commanded_motion);
-    for (std::size_t i = 0; i < 3; ++i) h[i] -= as_declared_[i];
-  }
-  h[3] = std::log(std::max(1.0, r.encoders.sampling_interval_s / period_s));
-  h[4] = std::log(r.encoders.ticks_per_revolution / recording_.robot.ticks_per_revolution);
-  return h;
 }
 
 }  // namespace umbsim

@@ -64,6 +64,41 @@ class Happenings {
 
 }  // namespace
 
+// In one step a robot rolls as if its wheels had turned evenly: what that leaves out is kinematics, and dead reckoning
+// knows it. What the robot does beside dead reckoning is spread over the samples.
+std::vector<Pose2> rolled(World& world, const ShaftDrive& drive) {
+  const std::vector<EncoderSample>& s = drive.samples;
+  world.place(drive.start);
+  std::vector<Pose2> track{world.pose()};
+  track.reserve(s.size());
+  Pose2 off;  // of the robot from where the world has it
+  bool slides = false;
+  for (const EvenStretch& stretch : drive.stretches) {
+    const std::size_t from = track.size() - 1, to = stretch.end;
+    const double all_s = s[to].time_s - s[from].time_s;
+    const Pose2 before = world.pose();
+    const auto& [left_rad, right_rad] = stretch.turned_rad;
+    world.command(drive.left_radps[to], drive.right_radps[to]);
+    if (to - from > 1 && !slides && world.roll({left_rad / all_s, right_rad / all_s}, all_s, stretch.peak_mps2)) {
+      const Pose2 start = track.back();
+      const Pose2 beside = inverse(stretch.as_one_arc) * (inverse(before) * world.pose());
+      for (std::size_t i = from + 1; i <= to; ++i) {
+        const double share = (s[i].time_s - s[from].time_s) / all_s;
+        const Pose2 part{share * beside.x_m, share * beside.y_m, share * beside.theta_rad};
+        track.push_back(start * stretch.sample_by_sample[i - from - 1] * part);
+      }
+      off = track.back() * inverse(world.pose());
+      continue;
+    }
+    for (std::size_t i = from + 1; i <= to; ++i) {
+      drive.advance(world, i);
+      track.push_back(off * world.pose());
+    }
+    slides = world.slides();
+  }
+  return track;
+}
+
 TracedRun traced(World& world, ShaftDrive shafts, bool moments) {
   TracedRun run{std::move(shafts), {}, {}, {}};
   const ShaftDrive& drive = run.drive;

@@ -8,6 +8,7 @@
 #include "core/pose2.h"
 #include "core/recent.h"
 #include "effects/rig.h"
+#include "experiment/replay/even_stretches.h"
 #include "recording/recording.h"
 #include "sim/snapshot.h"
 #include "sim/world.h"
@@ -21,6 +22,7 @@ struct ShaftDrive {
   std::vector<double> left_radps;
   std::vector<double> right_radps;
   Pose2 start;
+  std::vector<EvenStretch> stretches{};
   std::vector<std::array<double, 2>> rolling{};  ///< rolling radii over the wheels' own; empty: they are their own
 
   double period_s(std::size_t sample) const { return samples[sample].time_s - samples[sample - 1].time_s; }
@@ -31,6 +33,10 @@ struct ShaftDrive {
     world.advance(period_s(sample));
   }
 };
+
+/// The poses at the samples. The robot goes through each even stretch in one step as long as it only rolls, elsewhere
+/// from sample to sample. Throws RunError, InputError.
+std::vector<Pose2> rolled(World& world, const ShaftDrive& drive);
 
 /// A run that was driven once: the poses at all samples, and the moments at some of them.
 struct TracedRun {

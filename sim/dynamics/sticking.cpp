@@ -1,5 +1,7 @@
 #include "sim/dynamics/sticking.h"
 
+#include <Eigen/LU>
+
 namespace umbsim {
 
 using Eigen::Matrix3d;
@@ -161,24 +163,12 @@ bool StickingProblem::solve_symmetric() {
   return true;
 }
 
-// K = L U. Its pivots are positive unless friction holds more than masses and contacts.
+// K = L U, with rows exchanged: where contacts slide K is not symmetric, and pivots on its diagonal may have any sign.
 bool StickingProblem::solve_any() {
-  double inverse[6];
-  for (int i = 0; i < 6; ++i) {
-    double* Ki = K_[i];
-    for (int k = 0; k < i; ++k) {
-      Ki[k] *= inverse[k];
-      for (int j = k + 1; j < 6; ++j) Ki[j] -= Ki[k] * K_[k][j];
-      right_[i] -= Ki[k] * right_[k];
-    }
-    if (!(Ki[i] > 0)) return false;
-    inverse[i] = 1 / Ki[i];
-  }
-  for (int i = 5; i >= 0; --i) {
-    for (int k = i + 1; k < 6; ++k) right_[i] -= K_[i][k] * right_[k];
-    right_[i] *= inverse[i];
-  }
-  return true;
+  using Rows = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  Eigen::Map<Eigen::Matrix<double, 6, 1>> right(right_);
+  right = Eigen::PartialPivLU<Rows>(Eigen::Map<const Rows>(K_[0])).solve(right).eval();
+  return right.allFinite();
 }
 
 void StickingProblem::find_legs() {

@@ -7,8 +7,11 @@
 #include <iostream>
 
 #include "core/error.h"
+#include "effects/contact.h"
 #include "effects/geometry.h"
 #include "experiment/drive/rolling_noise.h"
+#include "experiment/replay/even_stretches.h"
+#include "experiment/replay/recorded_shafts.h"
 #include "sim/world.h"
 
 namespace umbsim {
@@ -41,7 +44,7 @@ struct Squares {
       right.push_back(r + ramp * (right_radps - r));
     }
   }
-  ShaftDrive drive() const { return {samples, left, right, {}, rolling}; }
+  ShaftDrive drive() const { return {samples, left, right, {}, {}, rolling}; }
 
   std::vector<EncoderSample> samples;
   std::vector<double> left;
@@ -93,9 +96,78 @@ class TracedRunTest : public ::testing::Test {
     EXPECT_LT(driven, most_driven);
   }
 
+  // The same in as few steps as may be: largest distance, in metres, and the share of the steps.
+  std::pair<double, double> in_few_steps(const char* what) const {
+    ShaftDrive drive = squares_.drive();
+    World each = world(), few = world();
+    const std::vector<Pose2> whole = traced(each, drive, false).track;
+    drive.stretches = even_stretches(
+        drive.samples, {turned_by(drive.samples, drive.left_radps, 1), turned_by(drive.samples, drive.right_radps, 1)},
+        {rig_.robot.wheels[0].radius_m, rig_.robot.wheels[1].radius_m}, rig_.robot.wheelbase_m());
+    const std::vector<Pose2> track = rolled(few, drive);
+    EXPECT_EQ(track.size(), whole.size());
+    double off_m = 0;
+    for (std::size_t i = 0; i < std::min(track.size(), whole.size()); ++i)
+      off_m = std::max(off_m, distance_m(track[i], whole[i]));
+    const double steps = double(few.cost().steps) / double(each.cost().steps);
+    std::cout << fmt::format("{}: off by {:.2g} mm in {:.0f} % of the steps\n", what, 1000 * off_m, 100 * steps);
+    return {off_m, steps};
+  }
+
   Rig rig_;
   Squares squares_;
 };
+
+TEST_F(TracedRunTest, RollsInFewSteps) {
+  const auto [off_m, steps] = in_few_steps("rigid");
+  EXPECT_LT(off_m, 1e-4);
+  EXPECT_LT(steps, 0.25);
+}
+
+TEST_F(TracedRunTest, CreepsInFewSteps) {
+  apply(TyreCreep{0.02, 0.02, 0, 0}, rig_);
+  apply(CasterDrag{0.1, 0.05}, rig_);
+  const auto [off_m, steps] = in_few_steps("a dragging caster on tyres that creep");
+  EXPECT_LT(off_m, 1e-4);
+  EXPECT_LT(steps, 0.25);
+}
+
+// Shaken shafts slide on a slippery floor from sample to sample, and not in one step of their mean speed.
+TEST_F(TracedRunTest, IsShakenOnASlipperyFloorSampleBySample) {
+  rig_.floor.friction = 0.02;
+  for (std::size_t i = 0; i < squares_.samples.size(); ++i) {
+    squares_.left[i] += i % 2 == 0 ? 0.02 : -0.02;
+    squares_.right[i] += i % 2 == 0 ? 0.02 : -0.02;
+  }
+  const auto [off_m, steps] = in_few_steps("shaken");
+  EXPECT_LT(off_m, 1e-4);
+  EXPECT_GT(steps, 0.9);
+  rig_.floor.friction = 1;
+  EXPECT_LT(in_few_steps("shaken on a floor that holds").second, 0.5);
+}
+
+// What slides a little slides much where the steps before it leave other speeds.
+TEST_F(TracedRunTest, SlidesAsMuchAfterFewSteps) {
+  rig_.floor.friction = 0.04;
+  World each = world();
+  traced(each, squares_.drive(), false);
+  ASSERT_GT(each.strain(0).slid_s, 5);
+  EXPECT_LT(in_few_steps("braked on a slippery floor").first, 1e-4);
+}
+
+TEST_F(TracedRunTest, SlidesSampleBySample) {
+  apply(WheelMisalignment{0.02, 0}, rig_);
+  const auto [off_m, steps] = in_few_steps("toed");
+  EXPECT_LT(off_m, 1e-5);
+  EXPECT_GT(steps, 0.5);
+}
+
+TEST_F(TracedRunTest, TurnsEccentricWheelsSampleBySample) {
+  apply(WheelEccentricity{0.001, 0, 0, 0}, rig_);
+  const auto [off_m, steps] = in_few_steps("eccentric");
+  EXPECT_EQ(off_m, 0);
+  EXPECT_EQ(steps, 1);
+}
 
 TEST_F(TracedRunTest, ResumesAsIfItHadGoneOn) {
   const ShaftDrive drive = squares_.drive();

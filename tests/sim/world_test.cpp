@@ -124,6 +124,65 @@ TEST(World, ArcsDoNotDependOnTheStep) {
   }
 }
 
+// Steps of a fifth of a second, each at an even speed, lie on the same circle.
+TEST(World, RollsOnACircleInLongSteps) {
+  World world = placed(labmate());
+  constexpr double kStep_s = 0.2, kLeft_radps = 2, kRight_radps = 2.5;
+  for (int i = 1; i <= 20; ++i) {
+    const double ramp = std::min(1.0, 0.1 * i), mean = std::min(1.0, 0.1 * (i - 0.5));
+    world.command(ramp * kLeft_radps, ramp * kRight_radps);
+    ASSERT_TRUE(world.roll({mean * kLeft_radps, mean * kRight_radps}, kStep_s));
+  }
+  EXPECT_NEAR(world.wheel_angle(0), 3 * kLeft_radps, 1e-9);
+  EXPECT_EQ(world.wheel_speed(0), kLeft_radps);
+  const Pose2 expected = circle(0.075 * world.wheel_angle(0), 0.075 * world.wheel_angle(1), 0.340, 0);
+  const Pose2 X_WB = world.pose();
+  EXPECT_LT(std::hypot(X_WB.x_m - expected.x_m, X_WB.y_m - expected.y_m), kCreep_m);
+  EXPECT_NEAR(X_WB.theta_rad, expected.theta_rad, 1e-6);
+}
+
+// From rest to 1.5 m/s at once is more than friction gives. Nothing has happened then, and the run goes on as it would.
+TEST(World, DoesNotSlideInALongStep) {
+  World world = placed(labmate()), other = placed(labmate());
+  for (World* w : {&world, &other}) w->command(20, 20);
+  EXPECT_FALSE(world.roll({20, 20}, 0.1));
+  EXPECT_EQ(world.pose().x_m, other.pose().x_m);
+  EXPECT_EQ(world.wheel_speed(0), other.wheel_speed(0));
+  for (World* w : {&world, &other}) w->advance(1);
+  EXPECT_NEAR(world.pose().x_m, other.pose().x_m, 1e-9);
+}
+
+TEST(World, TakesNoLongStepWithMotorsThatDoNotHold) {
+  for (const double torque_nm : {0.0, 1e-3}) {
+    World world(labmate(), {torque_nm}, {}, {});
+    world.place({});
+    world.command(1, 1);
+    EXPECT_FALSE(world.roll({1, 1}, 0.1));
+    EXPECT_NEAR(world.wheel_speed(0), 0, 1e-12);
+  }
+}
+
+TEST(World, TakesNoLongStepWhereItsWayMatters) {
+  const auto rolls = [](const RobotModel& robot, const Floor& floor, double backlash_rad) {
+    Drivetrain drivetrain{20};
+    for (Motor& m : drivetrain.motor) m.backlash_rad = backlash_rad;
+    World world(robot, drivetrain, floor, {});
+    world.place({});
+    world.command(0.01, 0.01);
+    return world.roll({0.01, 0.01}, 0.1);
+  };
+  EXPECT_TRUE(rolls(labmate(), {}, 0));
+  EXPECT_FALSE(rolls(labmate(), {}, 0.01)) << "play";
+  RobotModel eccentric = labmate();
+  eccentric.wheels[0].eccentricity_m = 0.001;
+  EXPECT_FALSE(rolls(eccentric, {}, 0));
+  Floor patched, uneven, with_cable;
+  patched.patches.push_back({1, 1, 0.1, 0.1});
+  uneven.ripples = random_ripples(0.001, 1, 1, 0);
+  with_cable.cables.push_back({0.04, 0.17, M_PI / 2, 0.01, 0.08});
+  for (const Floor& floor : {patched, uneven, with_cable}) EXPECT_FALSE(rolls(labmate(), floor, 0));
+}
+
 TEST(World, MirroredRobotDrivesTheMirrorImage) {
   RobotModel robot = labmate();
   robot.base.com_m.y() = 0.015;
