@@ -1,6 +1,7 @@
 #include "sim/dynamics/sticking.h"
 
-#include <Eigen/LU>
+#include <cmath>
+#include <utility>
 
 namespace umbsim {
 
@@ -163,12 +164,32 @@ bool StickingProblem::solve_symmetric() {
   return true;
 }
 
-// K = L U, with rows exchanged: where contacts slide K is not symmetric, and pivots on its diagonal may have any sign.
+// Elimination with rows exchanged: where contacts slide K is not symmetric, and pivots on its diagonal may have any
+// sign.
 bool StickingProblem::solve_any() {
-  using Rows = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
-  Eigen::Map<Eigen::Matrix<double, 6, 1>> right(right_);
-  right = Eigen::PartialPivLU<Rows>(Eigen::Map<const Rows>(K_[0])).solve(right).eval();
-  return right.allFinite();
+  double inverse[6];
+  for (int k = 0; k < 6; ++k) {
+    int pivot = k;
+    for (int i = k + 1; i < 6; ++i) {
+      if (std::abs(K_[i][k]) > std::abs(K_[pivot][k])) pivot = i;
+    }
+    if (!(std::abs(K_[pivot][k]) > 0)) return false;
+    if (pivot != k) {
+      std::swap(K_[pivot], K_[k]);
+      std::swap(right_[pivot], right_[k]);
+    }
+    inverse[k] = 1 / K_[k][k];
+    for (int i = k + 1; i < 6; ++i) {
+      const double factor = K_[i][k] * inverse[k];
+      for (int j = k + 1; j < 6; ++j) K_[i][j] -= factor * K_[k][j];
+      right_[i] -= factor * right_[k];
+    }
+  }
+  for (int i = 5; i >= 0; --i) {
+    for (int k = i + 1; k < 6; ++k) right_[i] -= K_[i][k] * right_[k];
+    right_[i] *= inverse[i];
+  }
+  return true;
 }
 
 void StickingProblem::find_legs() {
