@@ -50,9 +50,8 @@ Pose2 arc_of(const Ways& w, double wheelbase_m) {
 
 }  // namespace
 
-std::vector<EvenStretch> even_stretches(const std::vector<EncoderSample>& s,
-                                        const std::array<std::vector<double>, 2>& turned_rad,
-                                        const std::array<double, 2>& radius_m, double wheelbase_m) {
+EvenStretches even_stretches(const std::vector<EncoderSample>& s, const std::array<std::vector<double>, 2>& turned_rad,
+                             const std::array<double, 2>& radius_m, double wheelbase_m) {
   std::array<std::vector<double>, 2> way_m = turned_rad;
   for (std::size_t w = 0; w < 2; ++w) {
     for (double& m : way_m[w]) m *= radius_m[w];
@@ -70,7 +69,7 @@ std::vector<EvenStretch> even_stretches(const std::vector<EncoderSample>& s,
     return true;
   };
   const std::vector<double> acceleration_mps2 = accelerations_mps2(s, way_m);
-  std::vector<EvenStretch> stretches;
+  EvenStretches stretches;
   for (std::size_t from = 0; from + 1 < s.size(); from = stretches.back().end) {
     EvenStretch stretch;
     std::size_t& to = stretch.end = from + 1;

@@ -18,9 +18,11 @@ struct EvenStretch {
   std::vector<Pose2> sample_by_sample;  ///< and through its samples
 };
 
+using EvenStretches = std::vector<EvenStretch>;
+
 /// All of a drive. `turned_rad`: of each shaft up to the samples. `radius_m` and `wheelbase_m`: of the dead reckoning.
-std::vector<EvenStretch> even_stretches(const std::vector<EncoderSample>& samples,
-                                        const std::array<std::vector<double>, 2>& turned_rad,
-                                        const std::array<double, 2>& radius_m, double wheelbase_m);
+EvenStretches even_stretches(const std::vector<EncoderSample>& samples,
+                             const std::array<std::vector<double>, 2>& turned_rad,
+                             const std::array<double, 2>& radius_m, double wheelbase_m);
 
 }  // namespace umbsim

@@ -211,17 +211,19 @@ std::array<std::vector<double>, 2> Replay::shafts(std::size_t index, const Rig& 
           shaft_speeds(run, e, e.right, false, lag_[index], steps_, step)};
 }
 
-std::vector<EvenStretch> Replay::even(std::size_t index, const std::array<std::vector<double>, 2>& shafts) const {
+std::shared_ptr<const EvenStretches> Replay::even(std::size_t index,
+                                                  const std::array<std::vector<double>, 2>& shafts) const {
   const std::vector<EncoderSample>& samples = recording_.runs[index].encoders;
-  return even_stretches(samples, {turned_by(samples, shafts[0], steps_), turned_by(samples, shafts[1], steps_)},
-                        {nominal_.wheels[0].radius_m, nominal_.wheels[1].radius_m}, nominal_.wheelbase_m());
+  return std::make_shared<const EvenStretches>(
+      even_stretches(samples, {turned_by(samples, shafts[0], steps_), turned_by(samples, shafts[1], steps_)},
+                     {nominal_.wheels[0].radius_m, nominal_.wheels[1].radius_m}, nominal_.wheelbase_m()));
 }
 
 // The way of the shafts decides how rough the floor is under the wheels, whatever else happens to the robot.
 ShaftDrive Replay::drive_of(std::size_t index, const Rig& supposed, double roughness_m_per_sqrt_m) const {
   const bool as_believed = supposed.encoders == believed_[index];
   auto turning = as_believed ? shafts_[index] : shafts(index, supposed);
-  std::vector<EvenStretch> stretches = as_believed ? even_[index] : even(index, turning);
+  auto stretches = as_believed ? even_[index] : even(index, turning);
   ShaftDrive drive{recording_.runs[index].encoders, std::move(turning[0]), std::move(turning[1]), start_[index],
                    std::move(stretches)};
   if (roughness_m_per_sqrt_m == 0) return drive;

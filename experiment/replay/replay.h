@@ -58,7 +58,7 @@ class Replay {
   /// Speeds (left, right) at the encoders' samples, rad/s.
   std::array<std::vector<double>, 2> shafts(std::size_t run, const Rig& supposed) const;
   /// Of a run with such shafts.
-  std::vector<EvenStretch> even(std::size_t run, const std::array<std::vector<double>, 2>& shafts) const;
+  std::shared_ptr<const EvenStretches> even(std::size_t run, const std::array<std::vector<double>, 2>& shafts) const;
   ShaftDrive drive_of(std::size_t run, const Rig& supposed, double roughness_m_per_sqrt_m) const;
   std::vector<Pose2> driven(std::size_t run, const std::vector<Effect>& effects, double roughness_m_per_sqrt_m) const;
   double coarse_step(const Rig& rig) const;
@@ -77,7 +77,7 @@ class Replay {
   std::vector<CommandLag> lag_;                             // of the counts behind the commands, per run
   std::vector<EncoderSpec> believed_;                       // of each run, as the scenario has them
   std::vector<std::array<std::vector<double>, 2>> shafts_;  // of each run, if they are so
-  std::vector<std::vector<EvenStretch>> even_;              // of each run, if its shafts are so
+  std::vector<std::shared_ptr<const EvenStretches>> even_;  // of each run, if its shafts are so
   std::shared_ptr<Traces> traces_ = std::make_shared<Traces>(kTracesKept);
 };
 

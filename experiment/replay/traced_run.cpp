@@ -73,7 +73,7 @@ std::vector<Pose2> rolled(World& world, const ShaftDrive& drive) {
   track.reserve(s.size());
   Pose2 off;  // of the robot from where the world has it
   bool slides = false;
-  for (const EvenStretch& stretch : drive.stretches) {
+  for (const EvenStretch& stretch : *drive.stretches) {
     const std::size_t from = track.size() - 1, to = stretch.end;
     const double all_s = s[to].time_s - s[from].time_s;
     const Pose2 before = world.pose();

@@ -22,7 +22,7 @@ struct ShaftDrive {
   std::vector<double> left_radps;
   std::vector<double> right_radps;
   Pose2 start;
-  std::vector<EvenStretch> stretches{};
+  std::shared_ptr<const EvenStretches> stretches{};
   std::vector<std::array<double, 2>> rolling{};  ///< rolling radii over the wheels' own; empty: they are their own
 
   double period_s(std::size_t sample) const { return samples[sample].time_s - samples[sample - 1].time_s; }

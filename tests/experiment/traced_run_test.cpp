@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
+#include <memory>
 
 #include "core/error.h"
 #include "effects/contact.h"
@@ -101,9 +102,9 @@ class TracedRunTest : public ::testing::Test {
     ShaftDrive drive = squares_.drive();
     World each = world(), few = world();
     const std::vector<Pose2> whole = traced(each, drive, false).track;
-    drive.stretches = even_stretches(
+    drive.stretches = std::make_shared<const EvenStretches>(even_stretches(
         drive.samples, {turned_by(drive.samples, drive.left_radps, 1), turned_by(drive.samples, drive.right_radps, 1)},
-        {rig_.robot.wheels[0].radius_m, rig_.robot.wheels[1].radius_m}, rig_.robot.wheelbase_m());
+        {rig_.robot.wheels[0].radius_m, rig_.robot.wheels[1].radius_m}, rig_.robot.wheelbase_m()));
     const std::vector<Pose2> track = rolled(few, drive);
     EXPECT_EQ(track.size(), whole.size());
     double off_m = 0;
