@@ -27,7 +27,7 @@ bool World::State::one_step_will_do(double step_s, const std::array<double, 2>& 
 // on it.
 bool World::State::roll(double step_s, const std::array<double, 2>& target_radps, double peak_mps2) {
   const DofVector before = body.velocity();
-  const RowVector impulses_before = impulses;
+  const ContactsBefore contacts_then = contacts_before();
   as_after_one_of(step_s);
   find_speeds(step_s, target_radps);
   const DofVector& u = body.velocity();
@@ -37,9 +37,7 @@ bool World::State::roll(double step_s, const std::array<double, 2>& target_radps
     return true;
   }
   body.set_velocity(before);
-  impulses = impulses_before;
-  problem.contacts = 0;  // the rows of another step
-  grip = {};
+  begin_from(contacts_then);
   return false;
 }
 

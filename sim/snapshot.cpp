@@ -1,5 +1,6 @@
 #include "sim/snapshot.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/world_state.h"
@@ -32,6 +33,19 @@ bool goes_on_alike(const Snapshot& a, const Snapshot& b) {
          alike(a.loads.wheel_n, b.loads.wheel_n, kAlike_n) && alike(a.loads.caster_n, b.loads.caster_n, kAlike_n);
 }
 
+ContactsBefore World::State::contacts_before() const {
+  ContactsBefore now{grip, impulses, {}, problem.contacts};
+  std::copy_n(problem.contact, problem.contacts, now.rows.begin());
+  return now;
+}
+
+void World::State::begin_from(const ContactsBefore& before) {
+  grip = before.grip;
+  impulses = before.impulses;
+  problem.contacts = before.contacts;
+  std::copy_n(before.rows.begin(), before.contacts, problem.contact);
+}
+
 Snapshot World::snapshot() const {
   const State& s = *state_;
   Snapshot now;
@@ -51,7 +65,7 @@ Snapshot World::snapshot() const {
   now.time_s = s.time_s;
   now.last_step_s = s.last_step_s;
   now.heading_rad = s.heading_rad;
-  now.impulses = s.impulses;
+  now.contacts = s.contacts_before();
   return now;
 }
 
@@ -81,9 +95,7 @@ void World::resume(const Snapshot& then, const Pose2& X_moved) {
   s.by_rolling = false;
   s.set_heading(then.heading_rad + X_moved.theta_rad);
   s.stood_s = then.time_s;
-  s.impulses = then.impulses;
-  s.problem.contacts = 0;  // the rows of another step
-  s.grip = {};
+  s.begin_from(then.contacts);
 }
 
 }  // namespace umbsim

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "sim/dynamics/contact_solver.h"
+#include "sim/dynamics/contacts_before.h"
 #include "sim/world.h"
 
 namespace umbsim {
@@ -27,7 +27,7 @@ struct Snapshot {
   double time_s = 0;
   double last_step_s = 0;
   double heading_rad = 0;
-  RowVector impulses;  ///< of the last step: where the contact solver begins
+  ContactsBefore contacts;
 };
 
 /// Whether a robot goes on from both moments in the same way, seen from itself, on a floor that is the same everywhere:

@@ -10,6 +10,7 @@
 #include "sim/dynamics/contact_solver.h"
 #include "sim/dynamics/multibody.h"
 #include "sim/dynamics/sticking.h"
+#include "sim/snapshot.h"
 #include "sim/world.h"
 
 namespace umbsim {
@@ -50,30 +51,6 @@ struct TurningPatch {
   bool turns = false;
   double limit = 0;  // of the impulse
   double compliance = 0;
-};
-
-/// Which of its laws' branches each contact and each bounded row of a step is on, in their order.
-struct Grip {
-  int contacts = 0;
-  bool open[8]{};
-  int patch[8]{};   // -1, 1: at its limit
-  int swivel[4]{};  // the same of each leg
-  int motor[2]{};   // the same, at its torque limit; 2: in the play of its gear
-  bool slipped = false;
-  bool all_stick = false;  // every support, and no row is at a bound
-  std::array<Eigen::Vector3d, 8> slip = all_zero();
-
-  static std::array<Eigen::Vector3d, 8> all_zero() {
-    std::array<Eigen::Vector3d, 8> zero;
-    zero.fill(Eigen::Vector3d::Zero());
-    return zero;
-  }
-
-  bool all_hold() const {
-    const auto holds = [](int side) { return side == 0; };
-    return std::none_of(open, open + 8, [](bool o) { return o; }) && std::all_of(patch, patch + 8, holds) &&
-           std::all_of(swivel, swivel + 4, holds) && std::all_of(motor, motor + 2, holds);
-  }
 };
 
 /// What a motor does to its wheel in a step. Where there is play, it pushes one way only, at that end of the play which
@@ -190,6 +167,8 @@ struct World::State {
   void as_after_one_of(double step_s);
   bool wheel_slides(int i, double spare_ns = 0) const;
   bool slides(double spare_ns = 0) const;
+  ContactsBefore contacts_before() const;
+  void begin_from(const ContactsBefore& before);
   void step_anywhere(double step_s, const std::array<double, 2>& target_radps, const Impulse& given);
   bool step_rolling(double step_s, const std::array<double, 2>& target_radps, const Impulse& given, DofVector& u);
   double way_m(double step_s, bool kicked) const;

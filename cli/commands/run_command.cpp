@@ -47,6 +47,7 @@ void stop_if_asked() {
 }
 
 void run(const RunArguments& a) {
+  const StopRequests listen;  // before anything is written
   const Scenario scenario = read_scenario(shipped_path(ShippedKind::scenario, a.scenario), a.settings);
   std::optional<ResultFolder> out;
   if (a.answer.wants_folder(a.out)) out.emplace(a.out, scenario.name, a.force);
@@ -56,7 +57,6 @@ void run(const RunArguments& a) {
   }
   if (out) check_room(expected_size(scenario), out->path());
   const ThreadLimit limit(a.jobs);  // of writing, too
-  const StopRequests listen;
   ExperimentResult result;
   if (!out)
     result = run_experiment(scenario, a.jobs, true, {Rows::To::nowhere, {}}, stop_if_asked);

@@ -14,7 +14,7 @@ constexpr double kWheelbase_m = 0.4;
 
 // Of wheels that have rolled so far (left, right; metres) at a time.
 template <class Ways>
-std::vector<EvenStretch> stretches_of(double duration_s, const Ways& ways_at) {
+EvenStretches stretches_of(double duration_s, const Ways& ways_at) {
   std::vector<EncoderSample> samples(std::size_t(std::lround(duration_s / kSample_s)) + 1);
   std::array<std::vector<double>, 2> way_m;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -25,7 +25,7 @@ std::vector<EvenStretch> stretches_of(double duration_s, const Ways& ways_at) {
   return even_stretches(samples, way_m, {1, 1}, kWheelbase_m);
 }
 
-double longest_s(const std::vector<EvenStretch>& stretches) {
+double longest_s(const EvenStretches& stretches) {
   std::size_t longest = stretches.front().end;
   for (std::size_t i = 1; i < stretches.size(); ++i)
     longest = std::max(longest, stretches[i].end - stretches[i - 1].end);
@@ -59,7 +59,7 @@ TEST(EvenStretches, OfARampAreShorter) {
 
 TEST(EvenStretches, EndWhereATurnBegins) {
   const auto ways = [](double t) { return std::array{0.3 * std::min(t, 1.13), 0.3 * t}; };
-  const std::vector<EvenStretch> stretches = stretches_of(2, ways);
+  const EvenStretches stretches = stretches_of(2, ways);
   EXPECT_TRUE(std::any_of(stretches.begin(), stretches.end(), [](const EvenStretch& s) { return s.end == 113; }));
 }
 
