@@ -46,6 +46,7 @@ void apply(const CasterSwivel& effect, Rig& rig) {
   c.centre_m.z() = height_m;
   c.swivel_friction_nm = effect.friction_nm;
   c.initial_angle_rad = effect.initial_angle_rad;
+  c.bearing_creep = effect.bearing_creep;
 }
 
 void apply(const CasterDrag& effect, Rig& rig) {

@@ -31,6 +31,7 @@ struct CasterSwivel {
   double trail_m = 0;            ///< 0: as in the URDF
   double friction_nm = 0;        ///< of the swivel bearing
   double initial_angle_rad = 0;  ///< 0: trailing
+  double bearing_creep = 0.05;   ///< share of the wheel's rolling rate; where it swivels slower, friction fades
 };
 void apply(const CasterSwivel& effect, Rig& rig);
 

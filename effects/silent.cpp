@@ -26,13 +26,13 @@ bool same(const Wheel& a, const Wheel& b) {
 }
 
 bool same(const Caster& a, const Caster& b) {
-  const auto& [link, centre, radius, friction, swivels, point, fork, mass, spin, transverse, swivel, angle, slide,
-               suspension] = a;
+  const auto& [link, centre, radius, friction, swivels, point, fork, mass, spin, transverse, swivel, creep, angle,
+               slide, suspension] = a;
   return link == b.link && centre == b.centre_m && radius == b.radius_m && friction == b.friction &&
          swivels == b.swivels && point == b.swivel_point_m && same(fork, b.fork) && mass == b.wheel_mass_kg &&
          spin == b.wheel_spin_inertia_kgm2 && transverse == b.wheel_transverse_inertia_kgm2 &&
-         swivel == b.swivel_friction_nm && angle == b.initial_angle_rad && slide == b.slide &&
-         suspension == b.suspension;
+         swivel == b.swivel_friction_nm && creep == b.bearing_creep && angle == b.initial_angle_rad &&
+         slide == b.slide && suspension == b.suspension;
 }
 
 bool same(const Motor& a, const Motor& b) {

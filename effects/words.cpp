@@ -108,7 +108,10 @@ const std::vector<EffectWords>& words() {
        {"the caster kicks as it swivels[, with a trail of {trail_m}][, against {friction_nm} of friction in its "
         "bearing]"
         "[, {~initial_angle_rad} askew at the start]"},
-       {{"trail_m", "trail", "mm"}, {"friction_nm", "friction", "N m"}, {"initial_angle_rad", "initial angle", "°"}}},
+       {{"trail_m", "trail", "mm"},
+        {"friction_nm", "friction", "N m"},
+        {"initial_angle_rad", "initial angle", "°"},
+        {"bearing_creep", "creep of the bearing", "%"}}},
       {"caster_drag",
        "casters that drag",
        {"the casters drag with {coefficient} of their load[, {|left_m|} to the {left_m?left|right} of the middle]"},

@@ -61,38 +61,57 @@ Ramp ramp(const RecordedRun& run, const Stretch& s, const RecordedRobot& robot) 
   return r;
 }
 
-// Interval at which moving counters change, over the reading period; nothing where their steps are too wide to say.
-double sampling_ratio(const Recording& recording, const std::vector<std::vector<Stretch>>& stretches, double width) {
-  double moving = 0;
-  double changes = 0;
-  for (std::size_t r = 0; r < recording.runs.size(); ++r) {
-    const auto& e = recording.runs[r].encoders;
-    for (const Stretch& s : stretches[r]) {
-      if (s.kind == Stretch::Kind::still || s.last < s.first + 20) continue;
-      // Away from the ends, where a wheel may be slow.
-      const std::size_t a = s.first + (s.last - s.first) / 4;
-      const std::size_t b = s.last - (s.last - s.first) / 4;
-      const double per_period = std::abs(double(e[b].left_ticks - e[a].left_ticks)) / double(b - a);
-      if (per_period < 2 * width) continue;
-      double still = 0;
-      bool begun = false;  // with a change: how long counters stood still before the first one is not known
-      for (std::size_t i = a + 1; i <= b; ++i) {
-        const double step = std::abs(double(e[i].left_ticks - e[i - 1].left_ticks));
-        if (step == 0 && e[i].right_ticks == e[i - 1].right_ticks) {
-          still += 1;
-          continue;
-        }
-        // Counts that were held back arrive together; a robot that stood starts slowly.
-        if (begun) {
-          moving += step > 0.6 * (still + 1) * per_period ? still + 1 : 1;
-          changes += 1;
-        }
-        begun = true;
-        still = 0;
-      }
+/// A reading that differs from the one before it.
+struct Change {
+  int periods = 0;   ///< since the change before it
+  double ticks = 0;  ///< of the wheel that turned more
+};
+
+// Changes of counters that turn by two of their steps a period at least, with the changes next to them: slower ones
+// stand still in between anyway.
+std::vector<Change> changes_of(const RecordedRun& run, double width) {
+  std::vector<Change> changes;
+  std::size_t before = 0;  // how long counters stood still before the first change is not known
+  for (std::size_t i = 1; i < run.encoders.size(); ++i) {
+    const EncoderSample &now = run.encoders[i], &then = run.encoders[i - 1];
+    const double ticks = std::max(std::abs(double(now.left_ticks - then.left_ticks)),
+                                  std::abs(double(now.right_ticks - then.right_ticks)));
+    if (ticks == 0) continue;
+    if (before > 0) changes.push_back({int(i - before), ticks});
+    before = i;
+  }
+  std::vector<Change> fast;
+  for (std::size_t i = 1; i + 1 < changes.size(); ++i) {
+    const Change &a = changes[i - 1], &b = changes[i], &c = changes[i + 1];
+    const int periods = a.periods + b.periods + c.periods;
+    if (a.ticks + b.ticks + c.ticks >= 2 * width * periods) fast.push_back(b);
+  }
+  return fast;
+}
+
+// Interval at which counters are read, over the period of the recording: their changes are as many periods apart as
+// those in which the robot goes half of its way, or one more or less.
+double sampling_ratio(const Recording& recording, double width) {
+  std::vector<Change> all;
+  double ticks = 0;
+  for (const RecordedRun& run : recording.runs) {
+    for (const Change& c : changes_of(run, width)) {
+      all.push_back(c);
+      ticks += c.ticks;
     }
   }
-  return changes > 20 ? moving / changes : 1;
+  if (all.empty()) return 1;
+  std::sort(all.begin(), all.end(), [](const Change& a, const Change& b) { return a.periods < b.periods; });
+  double half = ticks / 2;
+  const auto usual = std::find_if(all.begin(), all.end() - 1, [&](const Change& c) { return (half -= c.ticks) <= 0; });
+  double periods = 0;
+  int changes = 0;
+  for (const Change& c : all) {
+    if (std::abs(c.periods - usual->periods) > 1) continue;
+    periods += c.periods;
+    changes += 1;
+  }
+  return changes > 20 ? periods / changes : 1;
 }
 
 }  // namespace
@@ -130,7 +149,7 @@ CommandFeatures measured_command_features(const Recording& recording,
     }
     command_features[2] = ratio(turning, p.angular_speed_radps);
   }
-  command_features[3] = std::log(sampling_ratio(recording, stretches, count_step));
+  command_features[3] = std::log(sampling_ratio(recording, count_step));
   if (command_features[3] < 0.04)
     command_features[3] = 0;  // counters that are read at every period stand still as good as never
   command_features[4] = -std::log(count_step);

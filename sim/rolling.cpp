@@ -83,8 +83,7 @@ bool World::State::start_rolling(double step_s, Rolling& now) {
     if (!c.swivels) continue;
     const double rolling_radps = body.velocity()[6 + body.legs()[std::size_t(leg)].wheel];
     now.swivel[leg].limit = c.swivel_friction_nm * step_s;
-    if (c.swivel_friction_nm > 0)
-      now.swivel[leg].compliance = swivel_compliance(c.swivel_friction_nm, rolling_radps, step_s);
+    if (c.swivel_friction_nm > 0) now.swivel[leg].compliance = swivel_compliance(c, rolling_radps, step_s);
     ++leg;
   }
   return true;

@@ -104,8 +104,8 @@ void World::State::step_with_motor_rows(double step_s, const std::array<double, 
   for (int i = 0; i < rows; ++i) u += response[i] * impulses[i];
 }
 
-// Dry friction, at most M; swivelling at less than kSwivelFade of the rolling rate it is in proportion to the rate,
-// hence a compliance kSwivelFade * rate / M of the row.
+// Dry friction, at most M; swivelling at less than a share of the rolling rate it is in proportion to the rate, hence a
+// compliance share * rate / M of the row.
 void World::State::add_swivel_friction(double step_s, const DofVector& u) {
   for (std::size_t i = 0; i < robot.casters.size(); ++i) {
     const Caster& c = robot.casters[i];
@@ -113,7 +113,7 @@ void World::State::add_swivel_friction(double step_s, const DofVector& u) {
     const int wheel = body.caster_wheel_joint(int(i)), fork = body.joints()[wheel].parent;
     problem.motor[problem.motors++] = {rows, c.swivel_friction_nm * step_s};
     row[rows] = DofVector::Unit(body.dofs(), 6 + fork);
-    compliance[rows] = swivel_compliance(c.swivel_friction_nm, body.velocity()[6 + wheel], step_s);
+    compliance[rows] = swivel_compliance(c, body.velocity()[6 + wheel], step_s);
     problem.b[rows] = u[6 + fork];
     ++rows;
   }

@@ -263,12 +263,11 @@ constexpr double kMobility = 1e-9;  // m/s per N
 /// Contacts this far ahead are watched, beyond what the step can travel.
 constexpr double kSpeculative_m = 0.001;
 
-/// Of the row of a swivel bearing with dry friction. Where it turns slower than kSwivelFade of its wheel's rolling rate
+/// Of the row of a swivel bearing with dry friction. Where it turns slower than a share of its wheel's rolling rate
 /// friction fades in proportion: a shaken bearing creeps (docs/contact.md).
-inline double swivel_compliance(double friction_nm, double rolling_radps, double step_s) {
-  constexpr double kSwivelFade = 0.05;
+inline double swivel_compliance(const Caster& caster, double rolling_radps, double step_s) {
   constexpr double kSwivelMobility = 1e-9;  // rad/s per N m: makes the problem regular, as kMobility does
-  return (kSwivelMobility + kSwivelFade * std::abs(rolling_radps) / friction_nm) / step_s;
+  return (kSwivelMobility + caster.bearing_creep * std::abs(rolling_radps) / caster.swivel_friction_nm) / step_s;
 }
 
 }  // namespace umbsim

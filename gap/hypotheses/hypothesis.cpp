@@ -149,6 +149,12 @@ Hypothesis drag_of_sides() {
   return hypothesis;
 }
 
+// A bearing that hardly creeps: it pushes as long as its fork swings, however slowly that becomes.
+Hypothesis dry_swivel() {
+  return direct("caster_swivel", "dry bearing", {positive("friction_nm", 0.1, 2)},
+                {{"trail_m", 0.03}, {"bearing_creep", 0.001}});
+}
+
 // Both wheels off their centres, each by its own two components.
 Hypothesis both_eccentric() {
   const Hypothesis left = vector_hypothesis("wheel_eccentricity", "left_m", "left_phase_rad", 5e-4, 1e-3, 0.02);
@@ -226,6 +232,7 @@ std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revol
       from_start(direct("caster_swivel", "askew", {{"initial_angle_rad", 0, 0.3, 2, -3.14, 3.14}},
                         {{"trail_m", 0.03}, {"friction_nm", 0.1}}),
                  1.5),
+      felt_through(motor, dry_swivel()),
       direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.04)}),
       drag_of_sides(),
       felt_through(motor, direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.1)})),

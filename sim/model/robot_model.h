@@ -87,6 +87,7 @@ struct Caster {
   double wheel_spin_inertia_kgm2 = 0;
   double wheel_transverse_inertia_kgm2 = 0;
   double swivel_friction_nm = 0;  ///< dry friction of the swivel bearing
+  double bearing_creep = 0.05;    ///< share of the wheel's rolling rate; where it swivels slower, friction fades
   double initial_angle_rad = 0;   ///< of the swivel at the start of a run
   Slide slide;
   Suspension suspension;

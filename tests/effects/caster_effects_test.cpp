@@ -20,8 +20,6 @@ using testing::rig_with;
 using testing::TrialDrive;
 
 constexpr double kTrail_m = 0.03, kFriction_nm = 0.2, kSwivel_m = 0.25;
-// The bearing's friction fades where a swivels slower than this share of the rolling rate (sim/step.cpp).
-constexpr double kFade = 0.05;
 constexpr double kTurn_rad = M_PI / 2;
 
 double turned(double a, double angle_rad) {
@@ -73,19 +71,27 @@ PhysicsOptions short_steps() {
   return options;
 }
 
-// Heading per metre at the swivel angle a. The floor pushes the caster across its fork with F = M / L (less where the
-// friction fades): moment (x cos a - L) F about the axle's middle, drag F sin a. Creeping wheels balance both; the
-// caster's place, L sin a off the middle, makes their loads unequal.
-double kick_rate(const RobotModel& robot, double a) {
-  const double swivel_per_roll = robot.casters[0].radius_m / kTrail_m * std::abs(std::tan(a));
-  const double force_n = std::copysign(std::min(1.0, swivel_per_roll / kFade), a) * kFriction_nm / kTrail_m;
+// Heading per metre at the swivel angle a, for each newton with which the floor pushes the caster across its fork: a
+// moment of x cos a - L about the axle's middle, and a drag of sin a. Creeping wheels balance both; the caster's place,
+// L sin a off the middle, makes their loads unequal.
+double kick_rate_per_n(const RobotModel& robot, double a) {
   const double wheels_n = robot.total_mass_kg() * kG - caster_load(robot, a);
   const double on_frame_n = caster_load(robot, a) - robot.casters[0].wheel_mass_kg * kG;
   const double sideways_n = on_frame_n * kTrail_m * std::sin(a) / kWheelbase_m;
   const double left_n = wheels_n / 2 + sideways_n, right_n = wheels_n / 2 - sideways_n;
-  const double half_drag_n = force_n * std::sin(a) / 2;
-  const double couple_n = force_n * (kSwivel_m * std::cos(a) - kTrail_m) / kWheelbase_m;
-  return kCreep / kWheelbase_m * ((half_drag_n + couple_n) / left_n - (half_drag_n - couple_n) / right_n);
+  const double half_drag = std::sin(a) / 2;
+  const double couple = (kSwivel_m * std::cos(a) - kTrail_m) / kWheelbase_m;
+  return kCreep / kWheelbase_m * ((half_drag + couple) / left_n - (half_drag - couple) / right_n);
+}
+
+// F = M / L, or less where the friction fades: in proportion to how fast the fork swings back, from which the kick
+// itself takes.
+double kick_rate(const RobotModel& robot, double a) {
+  const Caster& c = robot.casters[0];
+  const double full_n = kFriction_nm / kTrail_m, per_n = kick_rate_per_n(robot, a);
+  const double swing_n = full_n * c.radius_m / (c.bearing_creep * kTrail_m * std::cos(a));
+  const double faded_n = swing_n * std::abs(std::sin(a)) / (1 + swing_n * per_n * (kSwivel_m * std::cos(a) - kTrail_m));
+  return per_n * std::copysign(std::min(full_n, faded_n), a);
 }
 
 // Heading error after `distance_m` of a leg that begins with the swivel angle a. The kick itself swings the caster,
@@ -152,6 +158,20 @@ TEST(CasterSwivel, KicksInTheFirstTrailLengthsWithTheSignOfTheLastTurn) {
   expect_kick(right, model(rig.robot, -a), "after a turn to the right");
   EXPECT_GT(left.far, 0);
   EXPECT_LT(right.far, 0);
+}
+
+// The fork swings back by exp(-1) in a trail-length, and a bearing that hardly creeps pushes until it has.
+TEST(CasterSwivel, ADryBearingPushesFurtherIntoTheLeg) {
+  const double a = turned(0, kTurn_rad);
+  double before = 0;
+  for (const double creep : {0.05, 0.01, 0.002}) {
+    const Rig rig = rig_with(TyreCreep{kCreep, 0}, CasterSwivel{kTrail_m, kFriction_nm, 0, creep});
+    const Kick kick = kick_after_turn(rig, 1);
+    expect_kick(kick, model(rig.robot, a),
+                "a bearing that creeps at " + std::to_string(creep) + " of the rolling rate");
+    EXPECT_GT(kick.far, 1.2 * before);
+    before = kick.far;
+  }
 }
 
 TEST(CasterSwivel, DoesNotKickTheFirstLegWhereItStartsAligned) {

@@ -275,7 +275,7 @@ TEST(ReplayOfCommands, ASetPointThatJumpsSaysNothingOfAnAcceleration) {
 // Counters that are read rarely stand still in between, however coarse they are: nothing else makes moving wheels do
 // so.
 TEST(ReplayOfCommands, RareSamplingShowsInCountsThatStandStill) {
-  for (const double interval_s : {0.02, 0.0222, 0.0241, 0.05, 0.16}) {
+  for (const double interval_s : {0.02, 0.0222, 0.0241, 0.05, 0.16, 0.2508}) {
     for (const double ticks : {0.0, 172.0}) {
       Scenario s = squares(1, 2);
       s.effects = {effect("encoder_sampling", {{"interval_s", interval_s}})};
