@@ -31,7 +31,7 @@ bool same(const Caster& a, const Caster& b) {
   return link == b.link && centre == b.centre_m && radius == b.radius_m && friction == b.friction &&
          swivels == b.swivels && point == b.swivel_point_m && same(fork, b.fork) && mass == b.wheel_mass_kg &&
          spin == b.wheel_spin_inertia_kgm2 && transverse == b.wheel_transverse_inertia_kgm2 &&
-         swivel == b.swivel_friction_nm && creep == b.bearing_creep && angle == b.initial_angle_rad &&
+         swivel == b.swivel_friction_nm && (swivel == 0 || creep == b.bearing_creep) && angle == b.initial_angle_rad &&
          slide == b.slide && suspension == b.suspension;
 }
 
