@@ -16,13 +16,6 @@
 #include "recording/coarse_counts.h"
 
 namespace umbsim::gap {
-namespace {
-
-bool acts_on_counts(const std::vector<Effect>& effects) {
-  return std::any_of(effects.begin(), effects.end(), [](const Effect& e) { return shows_in_counts(*e.info); });
-}
-
-}  // namespace
 
 Model::Model(const Campaign& campaign, Simulator simulator, const Scatter& scatter,
              const std::optional<NoiseModel>& known)
@@ -125,10 +118,11 @@ std::vector<Predicted> Model::predict(const std::vector<std::vector<Effect>>& se
     const std::vector<Effect>& effects = sets[set];
     const std::size_t r = driven[i % driven.size()];
     all[set].tracks[r] = simulate_run(r, effects);
-    const bool counts = recording().runs[r].has_commands && simulator_.commands;
-    if (counts && (effects.empty() || acts_on_counts(effects))) {
+    if (!recording().runs[r].has_commands || !simulator_.commands) return;
+    const std::vector<Effect> reaching = reaching_counts(effects);
+    if (effects.empty() || !reaching.empty()) {
       all[set].counted[r] =
-          command_response(recording().runs[r], recording().robot, simulator_.commands(r, effects), step_rad_);
+          command_response(recording().runs[r], recording().robot, simulator_.commands(r, reaching), step_rad_);
     }
   });
   double seconds = 0;

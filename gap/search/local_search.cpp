@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kFirstStep = 0.4;       // of a number, where a search begins
 constexpr double kLeastStep = 1.0 / 16;  // of the first
-constexpr double kClosely = 0.25;        // of first steps, near the top
+constexpr double kClosely = 0.25;        // of first steps: as near to the top as a few runs lead, and all go on from
 constexpr double kOneHill = 2.1;         // first steps, within which a worse start is on the way to the same top
 constexpr int kRoundsAgain = 4;
 constexpr double kReachAgain = 2;       // steps of each number, to which a place is looked for again
@@ -78,10 +78,10 @@ double log_prior(const Hypothesis& hypothesis, const Eigen::VectorXd& numbers) {
   return -0.5 * numbers.cwiseQuotient(prior_sd_of({hypothesis})).squaredNorm();
 }
 
-// The top of the hill from one start; `closely`: a start that is near it.
+// The top of the hill from one start, with steps from one share of the candidate's reach to another.
 Eigen::VectorXd local_search(const Density& density, const Screen::Candidate& c, const Eigen::VectorXd& start,
-                             bool closely) {
-  Eigen::VectorXd reach = closely ? kClosely * c.reach : c.reach;
+                             double first_step, double least_step) {
+  Eigen::VectorXd reach = first_step * c.reach;
   Eigen::VectorXd min(start.size());
   Eigen::VectorXd max(start.size());
   for (Eigen::Index i = 0; i < start.size(); ++i) {
@@ -89,7 +89,7 @@ Eigen::VectorXd local_search(const Density& density, const Screen::Candidate& c,
     min[i] = c.hypothesis.parameters[std::size_t(i)].min;
     max[i] = c.hypothesis.parameters[std::size_t(i)].max;
   }
-  return subplex(density, start, reach, min, max, closely ? 4 * kLeastStep : kLeastStep, kMostTries);
+  return subplex(density, start, reach, min, max, least_step / first_step, kMostTries);
 }
 
 // The best starts of different hills, best first, as some runs see them; the density of the first.
@@ -136,14 +136,14 @@ std::optional<Eigen::VectorXd> searched_start(const Model& model, const Fit& bas
   std::vector<double> heights(c.starts.size());
   const Density on_few = density_on(model, base, c.hypothesis, begun_on(c));
   tbb::parallel_for(std::size_t(0), tops.size(), [&](std::size_t i) {
-    tops[i] = local_search(on_few, c, c.starts[i], false);
+    tops[i] = local_search(on_few, c, c.starts[i], 1, c.shown_by.empty() ? kLeastStep : kClosely);
     heights[i] = density(tops[i]);
   });
   const auto highest = std::max_element(heights.begin(), heights.end());
   if (*highest < least) return std::nullopt;
   const Eigen::VectorXd& best = tops[std::size_t(highest - heights.begin())];
   // Whether a wheel comes across a place is a matter of millimetres: the few runs do not speak for all.
-  return c.shown_by.empty() ? best : local_search(density, c, best, true);
+  return c.shown_by.empty() ? best : local_search(density, c, best, kClosely, kLeastStep);
 }
 
 namespace {

@@ -163,21 +163,27 @@ std::vector<Screen::Candidate> Screen::by_derivatives(const Fit& fit,
   const Evidence without = evidence(grams, runs, base, base_sds, shift);
   std::vector<double> misfit_without;
   for (const Eigen::VectorXd& sd : base_sds) misfit_without.push_back(evidence(grams, runs, base, sd, shift).misfit);
+  const auto with = [&](int first, int count) {
+    std::vector<int> columns = base;
+    Eigen::VectorXd moved = Eigen::VectorXd::Zero(fixed + count);
+    moved.head(fixed) = shift;
+    for (int i = 0; i < count; ++i) columns.push_back(fixed + 1 + first + i);
+    return evidence(grams, runs, columns, with_more(base_sds, prior_sd_.segment(first, count)), moved);
+  };
   std::vector<Candidate> candidates;
   for (std::size_t f = 0; f < hypotheses_.size(); ++f) {
     const auto [first, count] = range_[f];
     const bool there = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(),
                                    [&](const Hypothesis& g) { return g.effect == hypotheses_[f].effect; });
     if (there || !chosen(hypotheses_[f])) continue;
-    std::vector<int> columns = base;
-    Eigen::VectorXd moved = Eigen::VectorXd::Zero(fixed + count);
-    moved.head(fixed) = shift;
-    for (int i = 0; i < count; ++i) columns.push_back(fixed + 1 + first + i);
-    const Evidence e = evidence(grams, runs, columns, with_more(base_sds, prior_sd_.segment(first, count)), moved);
+    const Evidence e = with(first, count);
     Candidate c;
     c.hypothesis = hypotheses_[f];
     c.start = start_of(hypotheses_[f]);
     c.gain = e.log_density - without.log_density;
+    // What goes with an effect is not credited to it.
+    if (const int others = hypotheses_[f].from_zero ? hypotheses_[f].of_others : 0; others > 0)
+      c.gain -= std::max(0.0, with(first + count - others, others).log_density - without.log_density);
     bool possible = hypotheses_[f].from_zero;
     for (int i = 0; i < count; ++i) {
       const double mean = e.mean[fixed + i];

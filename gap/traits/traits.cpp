@@ -1,5 +1,6 @@
 #include "gap/traits/traits.h"
 
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -61,6 +62,13 @@ const Traits& traits_of(const std::string& effect) {
 
 bool shows_in_counts(const EffectInfo& info) {
   return info.stage == Stage::drivetrain || info.stage == Stage::encoder || is_commanded_motion(info.name);
+}
+
+std::vector<Effect> reaching_counts(std::vector<Effect> effects) {
+  const bool gives_way =
+      std::any_of(effects.begin(), effects.end(), [](const Effect& e) { return e.info->stage == Stage::drivetrain; });
+  if (!gives_way) std::erase_if(effects, [](const Effect& e) { return !shows_in_counts(*e.info); });
+  return effects;
 }
 
 bool is_contact(const std::string& effect) {

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "effects/catalogue.h"
 
@@ -76,6 +77,10 @@ inline bool is_of_the_world(const std::string& effect) { return is(effect, kOfAP
 
 /// Whether counts against commands, or how the robot was driven and read, show the effect; others only move the robot.
 bool shows_in_counts(const EffectInfo& info);
+
+/// Those of which counts may show something: none that acts on the robot alone, as long as nothing is wrong between
+/// motors and wheels. Shafts turn as they are told then, whatever the robot does.
+std::vector<Effect> reaching_counts(std::vector<Effect> effects);
 
 /// Whether it acts at a contact or on the floor, and is neither kinematic nor seen in the counts: what an engine's
 /// contacts make of it is its own.
