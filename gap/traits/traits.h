@@ -78,8 +78,8 @@ inline bool is_of_the_world(const std::string& effect) { return is(effect, kOfAP
 /// Whether counts against commands, or how the robot was driven and read, show the effect; others only move the robot.
 bool shows_in_counts(const EffectInfo& info);
 
-/// Those of which counts may show something: none that acts on the robot alone, as long as nothing is wrong between
-/// motors and wheels. Shafts turn as they are told then, whatever the robot does.
+/// Those of which counts may show something: all, if any is between motors and wheels, else those that show in counts.
+/// Shafts turn as they are told then, whatever the robot does, unless a motor reaches its torque limit.
 std::vector<Effect> reaching_counts(std::vector<Effect> effects);
 
 /// Whether it acts at a contact or on the floor, and is neither kinematic nor seen in the counts: what an engine's
