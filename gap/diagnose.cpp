@@ -56,16 +56,15 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   Context context{model, &model, screen, excluded, t, none, left_unexplained(model, none, t), none_log_evidence};
   detect(context, d);
   Fit best = d.causes.front().fit;
-  bool hidden = false;
   if (d.detected) {
     d.closure = held_out_closure(model, best);
-    hidden = hidden_in_noise(context, best, d.closure);
-    if (!hidden && !excused(model, best, d.closure)) context.judge = &little;
+    d.in_poses = !hidden_in_noise(context, best, d.closure);
+    if (d.in_poses && !excused(model, best, d.closure)) context.judge = &little;
   }
   const LeftUnexplained left = left_beside(*context.judge, best, t);
   d.unexplained = d.detected && left.all() > t.detect;
   d.unexplained_p = chi_squared_tail(2 * std::max(0.0, left.all()), 2);
-  if (d.detected) explain(context, left, hidden, best, d);
+  if (d.detected) explain(context, left, best, d);
   give_probabilities(d.causes);
   measure(context, left, best, d);
   fill_set(context, found, left, best, d);

@@ -75,6 +75,7 @@ struct EffectiveTwin {
 
 struct Diagnosis {
   bool detected = false;
+  bool in_poses = false;  ///< and tracks stray beyond noise and what engines differ by; else counts alone may show it
   double p_value = 1;
   bool not_fitted = false;  ///< the first cause is found, but its numbers leave what is not explained
   std::string stage = "undecided";

@@ -19,7 +19,8 @@
 namespace umbsim::gap {
 namespace {
 
-constexpr double kAhead = 1;  // log evidence of what is named for what it foretells
+constexpr double kAhead = 1;    // log evidence of what is named for what it foretells
+constexpr double kSure = 2.94;  // log odds of 95 %
 
 std::vector<std::string> names_of(const Fit& fit) {
   std::vector<std::string> names;
@@ -179,11 +180,37 @@ Fit without_contacts(const Context& w, Fit fit, const Closure& closure) {
   return fit;
 }
 
+// What a fit gains in counts and command features alone, its costs taken off.
+double shown_by_counts(const Context& w, const Fit& fit) {
+  return (w.model.counts_misfit(w.none) - w.model.counts_misfit(fit)) / 2 -
+         w.thresholds.effect_cost * double(fit.hypotheses.size());
+}
+
+// Whether counts alone show a fit. How engines' contacts differ moves none, and how their servos do is among the
+// nuisances; how servos give way under what contacts do is not known as well.
+bool counts_suffice(const Context& w, const Fit& fit) {
+  return shown_by_counts(w, fit) > (fit.is_kinematic() ? kSure : w.thresholds.detect);
+}
+
+// What is named where no track strays by more than noise makes it: what stays of the likeliest cause without contacts.
+// Where counts speak they alone decide between causes: how contacts differ moves no counts.
+Fit beside_noise(const Context& w, const Diagnosis& d) {
+  Fit named = without_contacts(w, d.causes.front().fit, d.closure);
+  const bool rolls = !std::any_of(named.hypotheses.begin(), named.hypotheses.end(),
+                                  [](const Hypothesis& h) { return shows_in_counts(h); });
+  if (!named.hypotheses.empty() && rolls) return named;
+  for (const Cause& c : d.causes) {
+    if (shown_by_counts(w, c.fit) <= shown_by_counts(w, named)) continue;
+    Fit less = without_contacts(w, c.fit, d.closure);
+    if (counts_suffice(w, less) && shown_by_counts(w, less) > shown_by_counts(w, named)) named = std::move(less);
+  }
+  return named;
+}
+
 // Leaves what contacts do within the noise of another engine's recordings out. Whether anything stays.
 bool name_beside_noise(const Context& w, Fit& best, Diagnosis& d) {
-  const std::size_t effects = best.hypotheses.size();
-  best = without_contacts(w, best, d.closure);
-  if (best.hypotheses.size() < effects || effects == 0)
+  const std::string likeliest = std::exchange(best, beside_noise(w, d)).name();
+  if (best.hypotheses.empty() || best.name() != likeliest)
     d.limits.push_back(
         "no track strays by more than noise makes it: how engines' contacts differ is not told from an effect");
   if (best.hypotheses.empty()) {
@@ -192,7 +219,8 @@ bool name_beside_noise(const Context& w, Fit& best, Diagnosis& d) {
     put_none_first(w.thresholds, d);
     return false;
   }
-  if (best.hypotheses.size() < effects) {
+  if (best.name() != likeliest) {
+    std::erase_if(d.causes, [&](const Cause& c) { return c.name != "none" && counts_lose(w, c.fit, best); });
     put_first(best, 2 * kAhead, d);
     d.closure = held_out_closure(w.model, best);
   }
@@ -207,15 +235,17 @@ void detect(const Context& w, Diagnosis& d) {
   const double not_named = w.left_by_none.all();
   const Thresholds& t = w.thresholds;
   const double enough = w.model.same_engine(front.fit) ? enough_to_detect(names_of(front.fit), t) : t.detect;
-  d.detected = not_named > t.detect || named > enough;
+  d.detected = not_named > t.detect || named > enough || (named > kSure && counts_suffice(w, front.fit));
   d.p_value = chi_squared_tail(2 * std::max({0.0, named, not_named}), 2);
   if (!d.detected) put_none_first(t, d);
 }
 
 bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
   const bool another = w.model.another_engines(fit);
-  if (!another && w.model.same_engine(fit)) return false;
   const double before_mm = in_sample_error_mm(w.model, w.none), after_mm = in_sample_error_mm(w.model, fit);
+  // What brings the robot no nearer may well stand for how contacts differ: it does not say whose engine it was.
+  const bool says_whose = after_mm < before_mm || w.model.same_engine(w.none);
+  if (!another && says_whose && w.model.same_engine(fit)) return false;
   if (before_mm > most_hidden_mm(w.model, another)) return false;
   // Where no run could be held out: noise is not explained by more than half.
   if (!another && closure.before_mm == 0 && after_mm < before_mm / 2) return false;
@@ -224,10 +254,10 @@ bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
   return !may_be_uneven_floor(w.model, w.none) && !find_uneven_floor(w.model, w.none);
 }
 
-void explain(const Context& w, const LeftUnexplained& left, bool hidden, Fit& best, Diagnosis& d) {
-  if (hidden && !name_beside_noise(w, best, d)) return;
+void explain(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis& d) {
+  if (!d.in_poses && !name_beside_noise(w, best, d)) return;
   const bool unknown =
-      !hidden && !worth_more_than_rest(w.model, best, d.closure) &&
+      d.in_poses && !worth_more_than_rest(w.model, best, d.closure) &&
       is_unknown(left, w.left_by_none, w.explained_by(best), w.model.contacts_differ(best), w.thresholds) &&
       !named_without_fit(w, left, best, d);
   add_unknown(w, best, unknown, left.all(), d);

@@ -11,8 +11,8 @@ void detect(const Context& context, Diagnosis& d);
 /// gap then: they differ from engine to engine.
 bool hidden_in_noise(const Context& context, const Fit& fit, const Closure& closure);
 
-/// Causes, unknown among them, the twin and the remainder. `left`: by the best of the causes. `hidden`: in the noise.
+/// Causes, unknown among them, the twin and the remainder. `left`: by the best of the causes.
 /// `best`: that cause, which may become another; `d.closure` is its.
-void explain(const Context& context, const LeftUnexplained& left, bool hidden, Fit& best, Diagnosis& d);
+void explain(const Context& context, const LeftUnexplained& left, Fit& best, Diagnosis& d);
 
 }  // namespace umbsim::gap

@@ -66,10 +66,13 @@ void give_probabilities(std::vector<Cause>& causes) {
 
 namespace {
 
-// Whether the effects alone lead the robot further from where it was than none do, and by more than noise: what engines
-// differ by would have to make up for it.
+// Whether the effects alone bring the robot no nearer to where it was than none do: what engines differ by would have
+// to make up for it. What counts show may move poses by as much as noise does, either way.
 bool leads_away(const Model& model, const Fit& none, const Fit& fit) {
-  return in_sample_error_mm(model, fit) > in_sample_error_mm(model, none) + 1000 * model.noise_floor_m();
+  const bool counted =
+      std::all_of(fit.hypotheses.begin(), fit.hypotheses.end(), [](const Hypothesis& h) { return shows_in_counts(h); });
+  const double further_mm = in_sample_error_mm(model, fit) - in_sample_error_mm(model, none);
+  return counted ? further_mm > 1000 * model.noise_floor_m() : further_mm >= 0;
 }
 
 }  // namespace

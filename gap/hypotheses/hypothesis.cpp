@@ -131,14 +131,19 @@ Hypothesis load() {
 
 // A caster that drags beside the middle also turns the robot: as much as drags to its left, less what drags to its
 // right.
-Hypothesis drag_of_sides() {
+Hypothesis drag_of_sides(double prior_sd) {
   const EffectInfo& info = find_effect("caster_drag");
   const EffectValues base = neutral_effect(info).values;
   const std::size_t coefficient = index_of(info, "coefficient");
   const std::size_t left = index_of(info, "left_m");
   constexpr double kBeside_m = 0.1;
-  Hypothesis hypothesis{
-      "caster_drag", "both sides", {positive("left", 0.02, 0.04), positive("right", 0.02, 0.04)}, {}, {}, true, 0};
+  Hypothesis hypothesis{"caster_drag",
+                        "both sides",
+                        {positive("left", 0.02, prior_sd), positive("right", 0.02, prior_sd)},
+                        {},
+                        {},
+                        true,
+                        0};
   hypothesis.values = [=](const Eigen::VectorXd& p) {
     EffectValues values = base;
     const double sum = p[0] + p[1];
@@ -234,9 +239,9 @@ std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revol
                  1.5),
       felt_through(motor, dry_swivel()),
       direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.04)}),
-      drag_of_sides(),
-      felt_through(motor, direct("caster_drag", "coefficient", {positive("coefficient", 0.02, 0.1)})),
-      felt_through(tyres(), drag_of_sides()),
+      drag_of_sides(0.04),
+      felt_through(motor, drag_of_sides(0.1)),
+      felt_through(tyres(), drag_of_sides(0.04)),
       from_start(direct("slippery_floor", "friction", {{"friction", 0, 2e-4, 0.2, 0.01, 0.8}}), 0.06),
       vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.02, 0.5),
       felt_through(motor, vector_hypothesis("floor_slope", "slope_rad", "downhill_rad", 0.01, 0.05, 0.5)),

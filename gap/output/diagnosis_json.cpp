@@ -170,6 +170,7 @@ std::string shown_text(const ParameterEstimate& e) {
 Json diagnosis_json(const Diagnosis& d) {
   Json json{{"format", "umbsim-diagnosis/1"}};
   json["gap"] = {{"detected", d.detected},
+                 {"in_poses", d.in_poses},
                  {"p_value", d.p_value},
                  {"noise_floor_mm", number(d.noise_floor_mm)},
                  {"before_mm", number(d.before_mm)}};

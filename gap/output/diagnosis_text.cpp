@@ -65,8 +65,10 @@ std::string remainder_text(const Diagnosis& d) {
 }
 
 std::string found_text(const Diagnosis& d, const std::vector<NextExperiment>& next) {
-  std::string text = fmt::format("Gap: the scenario is off by {:.1f} mm; run-to-run noise makes {:.1f} mm.\n",
-                                 d.before_mm, d.noise_floor_mm);
+  const std::string off = fmt::format("the scenario is off by {:.1f} mm;", d.before_mm);
+  std::string text = d.in_poses
+                         ? fmt::format("Gap: {} run-to-run noise makes {:.1f} mm.\n", off, d.noise_floor_mm)
+                         : fmt::format("No gap in the poses: {} noise makes {:.1f} mm.\n", off, d.noise_floor_mm);
   text += where_text(d) + causes_text(d) + wrapped(fmt::format("Not told apart: {}", fmt::join(d.set, ", ")));
   for (const auto& group : d.indistinguishable)
     text += wrapped(fmt::format("Alike in these runs: {}", fmt::join(group, ", ")));

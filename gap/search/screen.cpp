@@ -31,6 +31,9 @@ std::optional<double> shown_start(const std::string& effect, const CommandFeatur
   return feature < 0 ? std::nullopt : std::optional(features[std::size_t(feature)]);
 }
 
+// Whether an effect that bends is taken to act in proportion up to its start: it has one number, and no threshold.
+bool by_secant(const Hypothesis& h) { return !h.from_zero && h.parameters.size() == 1 && !is(h.effect, kThreshold); }
+
 }  // namespace
 
 Screen::Screen(const Model& model, const std::set<std::string>& excluded) : model_(model), excluded_(excluded) {
@@ -60,8 +63,8 @@ void Screen::simulate_steps() {
     range_.push_back({int(steps.size()), f.from_zero ? int(f.parameters.size()) : 1});
     if (!f.from_zero) {
       stepped.push_back(effects_of(f, start_of(f)));
-      steps.push_back(1);
-      sd.push_back(1);
+      steps.push_back(by_secant(f) ? f.parameters[0].start : 1);
+      sd.push_back(by_secant(f) ? f.parameters[0].prior_sd : 1);
       continue;
     }
     for (std::size_t i = 0; i < f.parameters.size(); ++i) {
@@ -189,6 +192,7 @@ std::vector<Screen::Candidate> Screen::by_derivatives(const Fit& fit,
       const double mean = e.mean[fixed + i];
       if (!hypotheses_[f].from_zero) {
         if (mean < 0) c.gain = -1e9;  // it would have to act backwards
+        if (mean > 0 && by_secant(hypotheses_[f])) c.start[0] = std::min(mean, hypotheses_[f].parameters[0].max);
         continue;
       }
       const FreeParameter& p = hypotheses_[f].parameters[std::size_t(i)];

@@ -44,6 +44,30 @@ TEST(WhoseEngine, RunsWithoutAnEffectSayWhichDroveThem) {
   }
 }
 
+// Contacts that differ move no counts. A motor whose commands say that it should turn faster is named though it moves
+// no pose, and needs no margin for contacts.
+TEST(CountsOfAnotherEngine, NeedNoMarginForContacts) {
+  const std::filesystem::path folder = std::filesystem::path(UMBSIM_SHARED_DIR) / "recordings/second-engine/case-14";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  constexpr double kSlower = -0.004;
+  Recording recording = read_recording(folder);
+  for (RecordedRun& run : recording.runs) {
+    for (EncoderSample& sample : run.encoders) sample.right_command_radps /= 1 + kSlower;
+  }
+  const Replay replay(scenario_of(recording, folder.string()), recording);
+  const Campaign campaign = campaign_of(recording);
+  Model model(campaign, testing::simulator(replay), Scatter{});
+  const Diagnosis d = diagnose(model, {}, Thresholds{}, [](const std::string&, double) {});
+  ASSERT_EQ(d.causes.front().name, "motor_response");
+  EXPECT_FALSE(d.in_poses);
+  for (const ParameterEstimate& e : parameter_estimates(d.causes.front(), d.overdispersion)) {
+    if (e.parameter != "gain_asymmetry") continue;
+    std::cout << fmt::format("{}: score {:.1f}, {:.4g} [{:.4g}, {:.4g}]\n", e.parameter, d.causes.front().score,
+                             e.value, e.ci95[0], e.ci95[1]);
+    EXPECT_TRUE(e.ci95[0] <= kSlower && kSlower <= e.ci95[1]);
+  }
+}
+
 struct Labelled {
   const char* folder;
   const char* effect;  ///< "none" for no effect
