@@ -192,10 +192,19 @@ bool counts_suffice(const Context& w, const Fit& fit) {
   return shown_by_counts(w, fit) > (fit.is_kinematic() ? kSure : w.thresholds.detect);
 }
 
-// What is named where no track strays by more than noise makes it: what stays of the likeliest cause without contacts.
-// Where counts speak they alone decide between causes: how contacts differ moves no counts.
+// Whether effects are detected beside no effect.
+bool found_alone(const Context& w, const Fit& fit) {
+  const Thresholds& t = w.thresholds;
+  const double score = fit.log_evidence - w.none.log_evidence - t.effect_cost * double(fit.hypotheses.size());
+  return score > t.detect || counts_suffice(w, fit);
+}
+
+// What is named where no track strays by more than noise makes it: what stays of the likeliest cause without contacts,
+// if it is detected without them. Where counts speak they alone decide between causes: how contacts differ moves no
+// counts.
 Fit beside_noise(const Context& w, const Diagnosis& d) {
   Fit named = without_contacts(w, d.causes.front().fit, d.closure);
+  if (!found_alone(w, named)) named = w.none;
   const bool rolls = !std::any_of(named.hypotheses.begin(), named.hypotheses.end(),
                                   [](const Hypothesis& h) { return shows_in_counts(h); });
   if (!named.hypotheses.empty() && rolls) return named;

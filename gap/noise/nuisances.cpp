@@ -10,15 +10,12 @@ namespace umbsim::gap {
 namespace {
 
 constexpr int kCommon = 11;  // creep, slip, late readings, CountsColumns: of the robot
-constexpr int kCreepColumn = 0;
 constexpr int kSlipColumn = 1;
 constexpr int kLateColumn = 2;
 constexpr int kCountsColumn = 3;    // the first of these
 constexpr int kLagColumn = 2;       // among CountsColumns
 constexpr int kFrictionColumn = 4;  // the first of two, among them
 constexpr int kPerTracker = 4;      // marker (2), clock, frame: of each recording
-constexpr int kPerGroup = 7;        // legs, turns in place, rolling turns, heading and sideways along legs, leads (2)
-constexpr int kLeads = 5;           // the first of these
 constexpr int kOwn = 4;             // radii (2), clock, its rate
 constexpr double kCreep = 0.01;
 constexpr double kUnexplained = 20;  // times the scatter between engines
@@ -31,8 +28,9 @@ struct Layout {
       tracker_of.push_back(trackers.size() - 1);
     }
   }
-  Eigen::Index group(std::size_t g) const { return kCommon + kPerGroup * Eigen::Index(g); }
-  Eigen::Index tracker(std::size_t t) const { return group(groups.rolling.size()) + kPerTracker * Eigen::Index(t); }
+  Eigen::Index tracker(std::size_t t) const {
+    return column_of(groups.rolling.size(), kLegScale) + kPerTracker * Eigen::Index(t);
+  }
   Eigen::Index size() const { return tracker(trackers.size()); }
   bool any_free() const {
     return std::any_of(trackers.begin(), trackers.end(), [](const Recording* r) { return tracker_is_free(*r); });
@@ -55,9 +53,9 @@ Eigen::VectorXd shared_sd(const Layout& layout, const Scatter& s) {
   const RunGroups& groups = layout.groups;
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
     const bool several = layout.trackers.size() > 1;
-    sd.segment(layout.group(g), kPerGroup) << (groups.rolling[g] ? s.arc_leg_scale : s.leg_scale),
-        several ? s.turns_between : s.turn_scale, several ? s.turns_between : s.arc_scale, s.heading_rad_pm, s.lateral,
-        s.lead_s, s.lead_s;
+    const double arcs = several ? s.turns_between : s.arc_scale, turns = several ? s.turns_between : s.turn_scale;
+    sd.segment(column_of(g, kLegScale), kContactDifferences) << (groups.rolling[g] ? s.arc_leg_scale : s.leg_scale),
+        turns, arcs, s.heading_rad_pm, s.lateral, s.lead_s, s.lead_s, s.lead_s_pmps, s.lead_s_pradps, s.outward_mps;
   }
   return sd;
 }
@@ -79,7 +77,7 @@ Eigen::VectorXd with_servos(Eigen::VectorXd sd, Servo servo, const Scatter& s) {
 // are, whoever made the recording.
 Eigen::VectorXd with_same_contacts(Eigen::VectorXd sd, const Layout& layout, const Scatter& s) {
   sd.head(kCountsColumn) *= s.same_engine;
-  sd.segment(layout.group(0), layout.tracker(0) - layout.group(0)) *= s.same_engine;
+  sd.segment(kCommon, layout.tracker(0) - kCommon) *= s.same_engine;
   return sd;
 }
 
@@ -141,19 +139,23 @@ LittleSlip little_slip(const NominalReplay& nominal, const Drive& drive, double 
 
 std::vector<Impulses3> group_impulses(const NominalReplay& nominal, std::size_t run) {
   const double b_m = nominal.recording->robot.wheelbase_m;
-  std::vector<Impulses3> impulses(kPerGroup, Impulses3(nominal.truth[run].size(), Eigen::Vector3d::Zero()));
+  std::vector<Impulses3> impulses(kContactDifferences, Impulses3(nominal.truth[run].size(), Eigen::Vector3d::Zero()));
+  const auto squared = [](double v) { return v * std::abs(v); };
   for (std::size_t k = 1; k < impulses[0].size(); ++k) {
     const auto& way = nominal.wheels_m[run][k];
     const double ds_m = (way[0] + way[1]) / 2;
     const double turn_rad = (way[1] - way[0]) / b_m;
     const bool arc = std::abs(ds_m) > 0.3 * b_m / 2 * std::abs(turn_rad);
-    impulses[0][k][0] = ds_m;
-    impulses[arc ? 2 : 1][k][2] = turn_rad;
-    impulses[3][k][2] = std::abs(ds_m);
-    impulses[4][k][1] = ds_m;
-    const Eigen::Vector3d faster = nominal.velocity[run][k] - nominal.velocity[run][k - 1];
-    impulses[kLeads][k][0] = faster[0];
-    impulses[kLeads + 1][k][2] = faster[2];
+    const Eigen::Vector3d &before = nominal.velocity[run][k - 1], &now = nominal.velocity[run][k];
+    impulses[kLegScale][k][0] = ds_m;
+    impulses[arc ? kArcScale : kTurnScale][k][2] = turn_rad;
+    impulses[kHeadingOnLegs][k][2] = std::abs(ds_m);
+    impulses[kLateralOnLegs][k][1] = ds_m;
+    impulses[kLeadAlong][k][0] = now[0] - before[0];
+    impulses[kLeadTurning][k][2] = now[2] - before[2];
+    impulses[kLeadAlongGrows][k][0] = squared(now[0]) - squared(before[0]);
+    impulses[kLeadTurningGrows][k][2] = squared(now[2]) - squared(before[2]);
+    if (!arc) impulses[kOutward][k][0] = turn_rad * now[2];
   }
   return impulses;
 }
@@ -195,10 +197,18 @@ void believe(const Layout& layout, const Scatter& scatter, const Scatter& other,
 }  // namespace
 
 Scatter between_engines(Scatter scatter) {
+  scatter.creep_across = 0.2;
   scatter.turn_scale = 9e-4;
   scatter.slip_share = 1;
   scatter.lead_s = 0.015;
+  scatter.lead_s_pmps = 0.02;
+  scatter.lead_s_pradps = 0.005;
+  scatter.outward_mps = 1e-3;
   return scatter;
+}
+
+Eigen::Index column_of(std::size_t group, ContactDifference difference) {
+  return kCommon + kContactDifferences * Eigen::Index(group) + difference;
 }
 
 bool tracker_is_free(const Recording& recording) { return recording.truth_heading_sd_rad > 0.001; }
@@ -219,10 +229,10 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   n.engine_sd.head(layout.tracker(0)) = n.shared_sds.front().head(layout.tracker(0));
   n.unexplained_sd = Eigen::VectorXd::Zero(layout.size());
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {
-    const Eigen::Index first = layout.group(g);
     // Between turns in place only the moments at which a turn begins and ends roll in an arc: engines differ there.
-    for (int i = 0; i < kLeads; ++i) {
-      if (i != 2 || groups.rolling[g]) n.unexplained_sd[first + i] = kUnexplained * n.shared_sds.front()[first + i];
+    for (const ContactDifference d : {kLegScale, kTurnScale, kArcScale, kHeadingOnLegs, kLateralOnLegs}) {
+      const Eigen::Index at = column_of(g, d);
+      if (d != kArcScale || groups.rolling[g]) n.unexplained_sd[at] = kUnexplained * n.shared_sds.front()[at];
     }
   }
   // No two engines, and no real tyre, grip sideways alike: the creep of the tyres is a nuisance up to its usual size.
@@ -245,8 +255,8 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
     raw.col(kCreepColumn) = filters[r].error(nominal.tracks[r], crept[r]) / kCreep;
     if (!slipped.empty()) raw.col(kSlipColumn) = filters[r].error(nominal.tracks[r], slipped[r]) / other.slip_share;
     const auto impulses = group_impulses(nominal, r);
-    const Eigen::Index first = layout.group(groups.group_of[r]);
-    for (int i = 0; i < kPerGroup; ++i) raw.col(first + i) = filters[r].propagate(impulses[std::size_t(i)]);
+    for (std::size_t d = 0; d < impulses.size(); ++d)
+      raw.col(column_of(groups.group_of[r], ContactDifference(d))) = filters[r].propagate(impulses[d]);
     // Counts that are read late are behind the pose and behind the commands alike.
     raw.col(kLateColumn) = filters[r].error(nominal.tracks[r], read_late[r]) / scatter.late_s;
     const int more_rows = int(counts[r].rows());

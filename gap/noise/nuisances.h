@@ -21,10 +21,15 @@ struct Scatter {
   double turns_between = 3e-3;  ///< of all turns, between recordings of one robot: kinds of driving that tyres scrub in
   double heading_rad_pm = 5e-5;  ///< along legs
   double lateral = 3e-5;         ///< along legs
-  double late_s = 0.004;         ///< by which counts are read late; MuJoCo's are by 4.5 ms
-  double lead_s = 0;        ///< of the pose before the counts, as speed goes, along and turning: contacts that creep
-  double marker_m = 0.003;  ///< of the tracked point from the axle's middle, where it was mounted by hand
-  double frame_rad = 0.02;  ///< of the tracker's heading from the drive axis, the same
+  /// Along, per second at 1 rad/s and as the square of the rate: a mass ahead of the axle pulls outward in turns in
+  /// place, and wheels that scrub give way.
+  double outward_mps = 1e-4;
+  double late_s = 0.004;     ///< by which counts are read late; MuJoCo's are by 4.5 ms
+  double lead_s = 0;         ///< of the pose before the counts, as speed goes, along and turning: contacts that creep
+  double lead_s_pmps = 0;    ///< by which the lead along grows with the speed,
+  double lead_s_pradps = 0;  ///< and the one of turns with theirs
+  double marker_m = 0.003;   ///< of the tracked point from the axle's middle, where it was mounted by hand
+  double frame_rad = 0.02;   ///< of the tracker's heading from the drive axis, the same
   double exact_marker_m = 5e-4;   ///< of the point where it is the axle's middle by definition: a simulation's truth
   double exact_start_rad = 5e-4;  ///< of the start where it is that of the course by definition, beside exact_marker_m
   double placed_m = 0.005;        ///< of the start where the robot was put there by hand, beside frame_rad
@@ -49,6 +54,25 @@ struct Scatter {
 
 /// The same where another engine made the runs, as measured between four of them (docs/worlds.md).
 Scatter between_engines(Scatter scatter);
+
+/// What contacts may do otherwise in each group of runs (RunGroups): the numbers of Scatter by these names.
+enum ContactDifference : Eigen::Index {
+  kLegScale,
+  kTurnScale,
+  kArcScale,
+  kHeadingOnLegs,
+  kLateralOnLegs,
+  kLeadAlong,
+  kLeadTurning,
+  kLeadAlongGrows,
+  kLeadTurningGrows,
+  kOutward,
+  kContactDifferences
+};
+
+/// Among the columns that all runs share: creep across, and what contacts do in a group of runs.
+inline constexpr Eigen::Index kCreepColumn = 0;
+Eigen::Index column_of(std::size_t group, ContactDifference difference);
 
 /// Columns that are fitted always and credited to nobody. Per run, whitened; outer index: run.
 struct Nuisances {

@@ -179,16 +179,15 @@ std::vector<Screen::Candidate> Screen::by_derivatives(const Fit& fit,
     const bool there = std::any_of(fit.hypotheses.begin(), fit.hypotheses.end(),
                                    [&](const Hypothesis& g) { return g.effect == hypotheses_[f].effect; });
     if (there || !chosen(hypotheses_[f])) continue;
-    const Evidence e = with(first, count);
+    // What goes with an effect is not credited to it: it stays as it begins.
+    const int offered = hypotheses_[f].from_zero ? count - hypotheses_[f].of_others : count;
+    const Evidence e = with(first, offered);
     Candidate c;
     c.hypothesis = hypotheses_[f];
     c.start = start_of(hypotheses_[f]);
     c.gain = e.log_density - without.log_density;
-    // What goes with an effect is not credited to it.
-    if (const int others = hypotheses_[f].from_zero ? hypotheses_[f].of_others : 0; others > 0)
-      c.gain -= std::max(0.0, with(first + count - others, others).log_density - without.log_density);
     bool possible = hypotheses_[f].from_zero;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < offered; ++i) {
       const double mean = e.mean[fixed + i];
       if (!hypotheses_[f].from_zero) {
         if (mean < 0) c.gain = -1e9;  // it would have to act backwards
@@ -204,7 +203,7 @@ std::vector<Screen::Candidate> Screen::by_derivatives(const Fit& fit,
       }
     }
     if (c.hypothesis.likelier) c.hypothesis.likelier(c.start);
-    if (possible) c.p_value = chi_squared_tail(misfit_without[e.prior] - e.misfit, count);
+    if (possible) c.p_value = chi_squared_tail(misfit_without[e.prior] - e.misfit, offered);
     candidates.push_back(std::move(c));
   }
   return candidates;

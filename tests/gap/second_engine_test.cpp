@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 
@@ -42,6 +43,38 @@ TEST(WhoseEngine, RunsWithoutAnEffectSayWhichDroveThem) {
     EXPECT_LT(model.none().misfit / model.rows(), misfit);
     EXPECT_GT(most_hidden_mm(model), most_hidden_mm(model, false));
   }
+}
+
+// The robot is pulled outward in turns in place, by `rate` m/s at 1 rad/s and as the square of the rate, as in MuJoCo.
+Recording pulled_outward(Recording recording, double rate) {
+  for (RecordedRun& run : recording.runs) {
+    Eigen::Vector2d pulled_m(0, 0);
+    Pose2 last = run.truth.front().X_WB;
+    for (std::size_t k = 1; k < run.truth.size(); ++k) {
+      const Pose2 now = run.truth[k].X_WB;
+      const double turn_rad = now.theta_rad - last.theta_rad, middle_rad = last.theta_rad + turn_rad / 2;
+      const bool turns = std::hypot(now.x_m - last.x_m, now.y_m - last.y_m) < 0.05 * std::abs(turn_rad);
+      const double turning_radps = turn_rad / (run.truth[k].time_s - run.truth[k - 1].time_s);
+      if (turns)
+        pulled_m += rate * turning_radps * turn_rad * Eigen::Vector2d(std::cos(middle_rad), std::sin(middle_rad));
+      last = now;
+      run.truth[k].X_WB.x_m += pulled_m[0];
+      run.truth[k].X_WB.y_m += pulled_m[1];
+    }
+  }
+  return recording;
+}
+
+// No effect is needed for that, and its size is found.
+TEST(ContactsOfAnotherEngine, PullOutwardInTurnsInPlace) {
+  constexpr double kRate = 1.5e-3;
+  const testing::Subject p(pulled_outward(testing::campaign({}, 97), kRate));
+  const Fit none = p.model.none();
+  EXPECT_TRUE(p.model.another_engines(none));
+  const double found = none.nuisance[column_of(0, kOutward)];
+  std::cout << fmt::format("pulled outward by {:.2f} mm/s at 1 rad/s, found {:.2f}\n", 1000 * kRate, 1000 * found);
+  EXPECT_NEAR(found, kRate, 0.1 * kRate);
+  EXPECT_EQ(p.diagnosed().causes.front().name, "none");
 }
 
 // Contacts that differ move no counts. A motor whose commands say that it should turn faster is named though it moves

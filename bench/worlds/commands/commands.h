@@ -5,6 +5,7 @@
 namespace umbsim::worlds {
 
 void add_check_command(CLI::App& app);
+void add_contacts_command(CLI::App& app);
 void add_differences_command(CLI::App& app);
 void add_draw_command(CLI::App& app);
 void add_inject_command(CLI::App& app);

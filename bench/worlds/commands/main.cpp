@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   umbsim::worlds::add_draw_command(app);
   umbsim::worlds::add_check_command(app);
+  umbsim::worlds::add_contacts_command(app);
   umbsim::worlds::add_differences_command(app);
   umbsim::worlds::add_inject_command(app);
   umbsim::worlds::add_learn_command(app);
