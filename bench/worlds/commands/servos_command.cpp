@@ -1,35 +1,19 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "bench/worlds/commands/commands.h"
+#include "bench/worlds/commands/spread.h"
 #include "bench/worlds/learn/servos.h"
 
 namespace umbsim::worlds {
 namespace {
 
-double root_mean_square(const std::vector<ServoResponse>& responses, Eigen::Index figure) {
-  double sum = 0;
-  for (const ServoResponse& r : responses) sum += r[figure] * r[figure];
-  return std::sqrt(sum / double(responses.size()));
-}
-
-double median_size(const std::vector<ServoResponse>& responses, Eigen::Index figure) {
-  std::vector<double> sizes;
-  for (const ServoResponse& r : responses) sizes.push_back(std::abs(r[figure]));
-  const auto middle = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle;
-}
-
 std::string cell(const std::vector<ServoResponse>& responses, Eigen::Index figure) {
+  std::vector<double> figures;
+  for (const ServoResponse& r : responses) figures.push_back(r[figure]);
   const bool lag = figure == kServoLag;
-  const double unit = lag || figure >= kServoFriction ? 1000 : 100;
-  const int digits = lag ? 0 : 3;
-  return fmt::format("{:.{}f} ({:.{}f})", unit * root_mean_square(responses, figure), digits,
-                     unit * median_size(responses, figure), digits);
+  return spread(figures, lag || figure >= kServoFriction ? 0.001 : 0.01, lag ? 0 : 3);
 }
 
 void servos(const std::vector<std::string>& folders) {

@@ -22,7 +22,8 @@ std::size_t figure_of(gap::ContactDifference d, bool rolling) {
   return d == gap::kLegScale && rolling ? kArcLegs : std::size_t(d);
 }
 
-void look_at_contacts(const std::string& recording, ContactsOfEngine& found, ContactsOfEngine& believed) {
+void look_at_contacts(const std::string& recording, ContactsOfEngine& found,
+                      std::array<double, kContactFigures>& believed) {
   const GapRecordings recordings({recording}, "");
   const gap::Model model(recordings.campaign(), recordings.simulator(true), gap::Scatter{});
   if (!model.engine_is_open()) return;
@@ -40,7 +41,7 @@ void look_at_contacts(const std::string& recording, ContactsOfEngine& found, Con
   }
   const gap::Evidence e = gap::evidence(none.grams, model.all_runs(), gap::first_columns(model.nuisances()), open);
   const auto keep = [&](std::size_t figure, Eigen::Index column) {
-    if (believed[figure].empty()) believed[figure].push_back(sd[column]);
+    believed[figure] = sd[column];
     if (std::sqrt(e.covariance(column, column)) < sd[column]) found[figure].push_back(e.mean[column]);
   };
   for (std::size_t g = 0; g < groups.rolling.size(); ++g) {

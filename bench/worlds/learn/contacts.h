@@ -25,8 +25,8 @@ using ContactsOfEngine = std::array<std::vector<double>, kContactFigures>;
 
 struct ContactsFound {
   std::map<std::string, ContactsOfEngine> by_engine;
-  ContactsOfEngine believed;  ///< standard deviations of the diagnosis, alike in all cases
-  int refused = 0;            ///< recordings that a diagnosis refuses
+  std::array<double, kContactFigures> believed{};  ///< standard deviations of the diagnosis, alike in all cases
+  int refused = 0;                                 ///< recordings that a diagnosis refuses
 };
 
 /// Of every case of a sealed folder in which nothing is wrong: the diagnosis' own fit of no effect, with standard
