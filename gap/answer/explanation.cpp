@@ -128,13 +128,20 @@ bool counts_lose(const Context& w, const Fit& fit, const Fit& richer) {
   return w.model.counts_misfit(fit) > counts + 2 * w.thresholds.addition;
 }
 
+// Whether tracks hold something steady beside a fit that engines do not differ by, however few millimetres it is: many
+// readings show a shift that is smaller than the noise of one run.
+bool leaves_what_engines_do_not(const Context& w, const Fit& fit) {
+  const LeftUnexplained left = fit.hypotheses.empty() ? w.left_by_none : left_beside(*w.judge, fit, w.thresholds);
+  return left.steady - left.counts > w.thresholds.detect;
+}
+
 // On another engine's recordings a contact's effect, or a dimension, beside others that takes too little away on
-// held-out runs, and does not show in counts, is no cause: it mends how the two engines' contacts differ. The
-// combination with it stays behind, as not told apart.
+// held-out runs, does not show in counts, and without which nothing is left that engines do not do, is no cause: it
+// mends how the two engines' contacts differ. The combination with it stays behind, as not told apart.
 void name_what_foretells(const Context& w, Fit& best, Diagnosis& d) {
   if (d.twin_is_nominal() || d.twin.hypotheses.size() == d.explanation.hypotheses.size()) return;
   if (w.model.same_engine(best) || !twin_lacks_mends_alone(w.model, d)) return;
-  if (counts_lose(w, d.twin, d.explanation)) return;
+  if (counts_lose(w, d.twin, d.explanation) || leaves_what_engines_do_not(w, d.twin)) return;
   best = d.explanation = d.twin;
   put_first(best, 2 * kAhead, d);
 }
@@ -203,8 +210,10 @@ bool found_alone(const Context& w, const Fit& fit) {
 // if it is detected without them. Where counts speak they alone decide between causes: how contacts differ moves no
 // counts.
 Fit beside_noise(const Context& w, const Diagnosis& d) {
-  Fit named = without_contacts(w, d.causes.front().fit, d.closure);
+  const Fit& likeliest = d.causes.front().fit;
+  Fit named = without_contacts(w, likeliest, d.closure);
   if (!found_alone(w, named)) named = w.none;
+  if (leaves_what_engines_do_not(w, named)) return likeliest;
   const bool rolls = !std::any_of(named.hypotheses.begin(), named.hypotheses.end(),
                                   [](const Hypothesis& h) { return shows_in_counts(h); });
   if (!named.hypotheses.empty() && rolls) return named;

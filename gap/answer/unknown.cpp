@@ -50,8 +50,13 @@ LeftUnexplained left_unexplained(const Model& model, const Fit& fit, const Thres
   const double generic = generic_gain(model, fit);
   double density = model.held_density(fit) + generic;
   for (const std::size_t r : model.all_runs()) density -= model.filter(r).log_det() / 2;
-  return {generic + counts_left(model, fit), lack_of_fit(model, fit, t), sudden_left(model, fit, t),
-          fit.hypotheses.empty() ? 0 : late_left(model, fit, t), density};
+  const double counts = counts_left(model, fit);
+  return {generic + counts,
+          counts,
+          lack_of_fit(model, fit, t),
+          sudden_left(model, fit, t),
+          fit.hypotheses.empty() ? 0 : late_left(model, fit, t),
+          density};
 }
 
 double may_be_left(double explained, bool contacts_differ, const Thresholds& t) {

@@ -11,6 +11,7 @@ namespace umbsim::gap {
 /// What a fit leaves that nothing of the catalogue explains, as log evidence.
 struct LeftUnexplained {
   double steady = 0;   ///< errors of no particular cause, and counts that stray from commands
+  double counts = 0;   ///< of these, the part of counts
   double lack = 0;     ///< misfit beyond noise, where the noise is known from repeated runs
   double sudden = 0;   ///< an impulse at a place or at a moment, beyond what a difference of engines makes
   double late = 0;     ///< readings that do not go with the counts, the same

@@ -72,17 +72,26 @@ bool shows_in_counts(const Hypothesis& hypothesis) {
 
 namespace {
 
-// Both wheels toed by the same angle against each other: the robot goes straight, and scrubs.
+// Both wheels toed by the same angle against each other: the robot goes straight, scrubs, and makes less way, by the
+// square of the angle.
 Hypothesis toed_alike() {
+  constexpr double kToeStep_rad = 0.03, kToePrior_rad = 0.02, kToeMost_rad = 0.2;
   const EffectInfo& info = find_effect("wheel_misalignment");
   const EffectValues base = neutral_effect(info).values;
   const std::size_t left = index_of(info, "left_toe_rad");
   const std::size_t right = index_of(info, "right_toe_rad");
-  Hypothesis hypothesis{"wheel_misalignment", "alike", {{"toe_rad", 0.01, 2e-3, 0.008, -0.2, 0.2}}, {}, {}, false, 0};
+  const auto square = [](double rad) { return rad * rad; };
+  Hypothesis hypothesis{"wheel_misalignment",
+                        "alike",
+                        {{"toe_rad squared", 0, square(kToeStep_rad), square(kToePrior_rad), 0, square(kToeMost_rad)}},
+                        {},
+                        {},
+                        true,
+                        0};
   hypothesis.values = [=](const Eigen::VectorXd& p) {
     EffectValues values = base;
-    values.numbers[left] = p[0];
-    values.numbers[right] = -p[0];
+    values.numbers[left] = std::sqrt(std::max(p[0], 0.0));
+    values.numbers[right] = -values.numbers[left];
     return values;
   };
   return hypothesis;
