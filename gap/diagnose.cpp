@@ -46,14 +46,15 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   const Screen screen(model, excluded);
   Found found = search(model, screen, t, progress);
   const Fit none = found.fits.front();
-  d.causes = ranked(worth_their_cost(model, std::move(found.fits), t), t);
+  const LeftUnexplained left_by_none = left_unexplained(model, none, t);
+  d.causes = ranked(worth_their_cost(model, std::move(found.fits), left_by_none, t), t);
   progress("held-out runs", 0);
   prefer_what_predicts(model, d.causes, t);
   prefer_kinematic(d.causes);
   progress("what no effect explains", 0);
   const Model little = model.with_little_differences();
   const double none_log_evidence = std::min(none.log_evidence, little.none().log_evidence);
-  Context context{model, &model, screen, excluded, t, none, left_unexplained(model, none, t), none_log_evidence};
+  Context context{model, &model, screen, excluded, t, none, left_by_none, none_log_evidence};
   detect(context, d);
   Fit best = d.causes.front().fit;
   if (d.detected) {

@@ -128,11 +128,10 @@ bool counts_lose(const Context& w, const Fit& fit, const Fit& richer) {
   return w.model.counts_misfit(fit) > counts + 2 * w.thresholds.addition;
 }
 
-// Whether tracks hold something steady beside a fit that engines do not differ by, however few millimetres it is: many
-// readings show a shift that is smaller than the noise of one run.
+// Whether something is left beside a fit that engines do not differ by (LeftUnexplained::beyond_engines).
 bool leaves_what_engines_do_not(const Context& w, const Fit& fit) {
   const LeftUnexplained left = fit.hypotheses.empty() ? w.left_by_none : left_beside(*w.judge, fit, w.thresholds);
-  return left.steady - left.counts > w.thresholds.detect;
+  return left.beyond_engines(w.thresholds);
 }
 
 // On another engine's recordings a contact's effect, or a dimension, beside others that takes too little away on

@@ -67,25 +67,28 @@ void give_probabilities(std::vector<Cause>& causes) {
 namespace {
 
 // Whether the effects alone bring the robot no nearer to where it was than none do: what engines differ by would have
-// to make up for it. What counts show may move poses by as much as noise does, either way.
-bool leads_away(const Model& model, const Fit& none, const Fit& fit) {
-  const bool counted =
-      std::all_of(fit.hypotheses.begin(), fit.hypotheses.end(), [](const Hypothesis& h) { return shows_in_counts(h); });
+// to make up for it. As much as noise makes, either way, is no matter where counts show the effects, or tracks more
+// than engines do.
+bool leads_away(const Model& model, const Fit& none, const Fit& fit, bool beyond_engines) {
+  const bool shown = beyond_engines || std::all_of(fit.hypotheses.begin(), fit.hypotheses.end(),
+                                                   [](const Hypothesis& h) { return shows_in_counts(h); });
   const double further_mm = in_sample_error_mm(model, fit) - in_sample_error_mm(model, none);
-  return counted ? further_mm > 1000 * model.noise_floor_m() : further_mm >= 0;
+  return shown ? further_mm > 1000 * model.noise_floor_m() : further_mm >= 0;
 }
 
 }  // namespace
 
-std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, const Thresholds& t) {
+std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, const LeftUnexplained& left_by_none,
+                                  const Thresholds& t) {
   const Fit none = fits.front();
+  const bool beyond_engines = left_by_none.beyond_engines(t);
   std::stable_sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) {
     return std::pair(a.hypotheses.size(), -a.log_evidence) < std::pair(b.hypotheses.size(), -b.log_evidence);
   });
   std::vector<Fit> kept;
   std::vector<Needed> needed;  // beside each of these
   for (Fit& fit : fits) {
-    if (leads_away(model, none, fit)) continue;
+    if (leads_away(model, none, fit, beyond_engines)) continue;
     // Dimensions pay less. What is as good with one of them exchanged is not told apart.
     const auto exchanged = [&](const Fit& other) {
       return model.tracker_is_free() && other.log_evidence < fit.log_evidence + t.tie &&

@@ -3,13 +3,15 @@
 #include <vector>
 
 #include "gap/answer/diagnosis.h"
+#include "gap/answer/unknown.h"
 #include "gap/search/thresholds.h"
 
 namespace umbsim::gap {
 
 /// Combinations that bring too little over anything simpler are dropped: each further effect has to pay. The first fit
-/// is that of no effect.
-std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, const Thresholds& thresholds);
+/// is that of no effect. `left_by_none`: what it leaves.
+std::vector<Fit> worth_their_cost(const Model& model, std::vector<Fit> fits, const LeftUnexplained& left_by_none,
+                                  const Thresholds& thresholds);
 
 /// The best fit of every name, best first, with its variants. The first fit is that of no effect.
 std::vector<Cause> ranked(const std::vector<Fit>& fits, const Thresholds& thresholds);
