@@ -198,7 +198,7 @@ void believe(const Layout& layout, const Scatter& scatter, const Scatter& other,
 
 Scatter between_engines(Scatter scatter) {
   scatter.creep_across = 0.2;
-  scatter.leg_scale = 1.6e-4;
+  scatter.leg_scale = 3e-4;
   scatter.turn_scale = 9e-4;
   scatter.slip_share = 1;
   scatter.lead_s = 0.015;
