@@ -262,8 +262,9 @@ bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
   const double before_mm = in_sample_error_mm(w.model, w.none), after_mm = in_sample_error_mm(w.model, fit);
   // What brings the robot no nearer may well stand for how contacts differ: it does not say whose engine it was.
   const bool says_whose = after_mm < before_mm || w.model.same_engine(w.none);
-  if (!another && says_whose && w.model.same_engine(fit)) return false;
-  if (before_mm > most_hidden_mm(w.model, another)) return false;
+  if (says_whose && w.model.same_engine(fit)) return false;
+  // Nor does a contact's effect that makes another engine's runs look like those of any robot.
+  if (before_mm > most_hidden_mm(w.model, another || w.model.another_engines(w.none))) return false;
   // Where no run could be held out: noise is not explained by more than half.
   if (!another && closure.before_mm == 0 && after_mm < before_mm / 2) return false;
   // What comes again wherever runs pass the same places is the floor's.
