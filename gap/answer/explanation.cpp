@@ -128,10 +128,13 @@ bool counts_lose(const Context& w, const Fit& fit, const Fit& richer) {
   return w.model.counts_misfit(fit) > counts + 2 * w.thresholds.addition;
 }
 
-// Whether something is left beside a fit that engines do not differ by (LeftUnexplained::beyond_engines).
-bool leaves_what_engines_do_not(const Context& w, const Fit& fit) {
-  const LeftUnexplained left = fit.hypotheses.empty() ? w.left_by_none : left_beside(*w.judge, fit, w.thresholds);
-  return left.beyond_engines(w.thresholds);
+// Whether `fit` leaves something that engines do not differ by, most of which `richer` explains.
+bool leaves_more_than_engines_do(const Context& w, const Fit& fit, const Fit& richer) {
+  const auto left = [&](const Fit& f) {
+    return f.hypotheses.empty() ? w.left_by_none : left_beside(*w.judge, f, w.thresholds);
+  };
+  const LeftUnexplained beside = left(fit);
+  return beside.beyond_engines(w.thresholds) && left(richer).in_tracks() < beside.in_tracks() / 2;
 }
 
 // On another engine's recordings a contact's effect, or a dimension, beside others that takes too little away on
@@ -140,7 +143,7 @@ bool leaves_what_engines_do_not(const Context& w, const Fit& fit) {
 void name_what_foretells(const Context& w, Fit& best, Diagnosis& d) {
   if (d.twin_is_nominal() || d.twin.hypotheses.size() == d.explanation.hypotheses.size()) return;
   if (w.model.same_engine(best) || !twin_lacks_mends_alone(w.model, d)) return;
-  if (counts_lose(w, d.twin, d.explanation) || leaves_what_engines_do_not(w, d.twin)) return;
+  if (counts_lose(w, d.twin, d.explanation) || leaves_more_than_engines_do(w, d.twin, d.explanation)) return;
   best = d.explanation = d.twin;
   put_first(best, 2 * kAhead, d);
 }
@@ -212,7 +215,7 @@ Fit beside_noise(const Context& w, const Diagnosis& d) {
   const Fit& likeliest = d.causes.front().fit;
   Fit named = without_contacts(w, likeliest, d.closure);
   if (!found_alone(w, named)) named = w.none;
-  if (leaves_what_engines_do_not(w, named)) return likeliest;
+  if (leaves_more_than_engines_do(w, named, likeliest)) return likeliest;
   const bool rolls = !std::any_of(named.hypotheses.begin(), named.hypotheses.end(),
                                   [](const Hypothesis& h) { return shows_in_counts(h); });
   if (!named.hypotheses.empty() && rolls) return named;

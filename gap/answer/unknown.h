@@ -18,9 +18,10 @@ struct LeftUnexplained {
   double density = 0;  ///< log density of the runs under the fit and errors of no particular cause
   double all() const;
 
+  double in_tracks() const { return steady - counts; }
   /// Whether tracks hold something steady that engines do not differ by, however few millimetres it is: many readings
   /// show a shift that is smaller than the noise of one run.
-  bool beyond_engines(const Thresholds& thresholds) const { return steady - counts > thresholds.detect; }
+  bool beyond_engines(const Thresholds& thresholds) const { return in_tracks() > thresholds.detect; }
 };
 
 LeftUnexplained left_unexplained(const Model& model, const Fit& fit, const Thresholds& thresholds);
