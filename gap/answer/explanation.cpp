@@ -209,16 +209,16 @@ bool found_alone(const Context& w, const Fit& fit) {
 }
 
 // What is named where no track strays by more than noise makes it: what stays of the likeliest cause without contacts,
-// if it is detected without them. Where counts speak they alone decide between causes: how contacts differ moves no
-// counts.
+// if it is detected without them, or all of it where contacts explain what engines do not. Where counts speak they
+// alone decide between causes: how contacts differ moves no counts.
 Fit beside_noise(const Context& w, const Diagnosis& d) {
   const Fit& likeliest = d.causes.front().fit;
   Fit named = without_contacts(w, likeliest, d.closure);
   if (!found_alone(w, named)) named = w.none;
-  if (leaves_more_than_engines_do(w, named, likeliest)) return likeliest;
   const bool rolls = !std::any_of(named.hypotheses.begin(), named.hypotheses.end(),
                                   [](const Hypothesis& h) { return shows_in_counts(h); });
-  if (!named.hypotheses.empty() && rolls) return named;
+  if (rolls && leaves_more_than_engines_do(w, named, likeliest)) return likeliest;
+  if (rolls && !named.hypotheses.empty()) return named;
   for (const Cause& c : d.causes) {
     if (shown_by_counts(w, c.fit) <= shown_by_counts(w, named)) continue;
     Fit less = without_contacts(w, c.fit, d.closure);
