@@ -44,8 +44,9 @@ struct ToedWheel {
     return s;
   }
 
-  Model unsure(double turned) const {
-    return model.unsure_of(fit, [turned](const std::string&) {
+  Model unsure(double turned) const { return unsure(turned, model); }
+  Model unsure(double turned, const Model& where) const {
+    return where.unsure_of(where.held(fit), [turned](const std::string&) {
       return SignatureErrors{{0.3, 0.3, 0.6, 1.5}, 0.3, 0.1, turned};
     });
   }
@@ -97,14 +98,17 @@ TEST(UnsureModel, WhatSlipsAcrossMayTurnTheRobot) {
   EXPECT_GT(turned_base, 0.5 * base);
 }
 
-// Nor has it grip left along its way: on legs it rolls further, or less far, though not by much.
+// Nor has it grip left along its way: on legs it rolls further, or less far, by more than robots differ by, though not
+// by much.
 TEST(UnsureModel, WhatSlipsAcrossMayRollFurther) {
   const ToedWheel t;
-  const Model straight = t.unsure(0), further = t.unsure(1);
-  const auto little = t.beside_longer_ways(0.004), much = t.beside_longer_ways(0.03);
-  const double before = lost(straight, t.fit, little), after = lost(further, t.fit, little);
-  const double much_before = lost(straight, t.fit, much), much_after = lost(further, t.fit, much);
-  std::printf("ways longer by 0.4 %%: %.1f lost, %.1f where slip may roll on; by 3 %%: %.1f, %.1f\n", before, after,
+  const Model robots = t.subject.model.with_little_differences();
+  const Model straight = t.unsure(0, robots), further = t.unsure(1, robots);
+  const Fit fit = robots.held(t.fit);
+  const auto little = t.beside_longer_ways(0.002), much = t.beside_longer_ways(0.03);
+  const double before = lost(straight, fit, little), after = lost(further, fit, little);
+  const double much_before = lost(straight, fit, much), much_after = lost(further, fit, much);
+  std::printf("ways longer by 0.2 %%: %.1f lost, %.1f where slip may roll on; by 3 %%: %.1f, %.1f\n", before, after,
               much_before, much_after);
   EXPECT_GT(before, 50);
   EXPECT_LT(after, 0.5 * before);
