@@ -12,6 +12,8 @@ constexpr std::size_t kFirstCounts = 30;  // that the coarse look takes in
 constexpr std::size_t kCandidates = 200;  // narrow steps that are followed from one look to the next
 constexpr double kNarrowest = 1.05;
 constexpr double kNarrow = 3.2;  // up to here counts tell by those that never come
+constexpr double kFewest = 3;    // counts of a step that coherence tells
+constexpr double kCoherent = 0.8;
 
 // Different counts of the first run's left wheel, without sign, in order.
 std::vector<double> different_counts(const Recording& recording) {
@@ -47,16 +49,18 @@ std::complex<double> coherence(const std::vector<double>& counts, double width, 
   return n > 10 ? sum / n : 0;
 }
 
-// From a coarse look at the first counts to a fine one at all of them.
-double wide_step(const std::vector<double>& counts, double smallest) {
-  double best = smallest;
-  double width = 1;
+// The step in [about - off, about + off], from a look at the first counts to a finer one at all of them; 1 if there is
+// none.
+double step_about(const std::vector<double>& counts, double about, double off) {
+  double best = about;
   const double enough = counts[std::min(counts.size() - 1, kFirstCounts)];
-  for (double up_to = std::max(smallest * 12, enough); width > 1e-6 * best; up_to *= 4) {
-    double top = -1;
+  for (double up_to = std::max(about * 12, enough); off > 1e-6 * best; up_to *= 4) {
+    double top = 0;
     const double centre = best;
-    for (int i = -40; i <= 40; ++i) {
-      const double q = centre + width * i / 40;
+    const int n =
+        std::max(40, int(off * 12 * up_to / (about * about)));  // so close that no phase turns by half a radian
+    for (int i = -n; i <= n; ++i) {
+      const double q = centre + off * i / n;
       if (q < 1.5) continue;
       const double value = std::abs(coherence(counts, q, up_to));
       if (value > top) {
@@ -64,10 +68,21 @@ double wide_step(const std::vector<double>& counts, double smallest) {
         best = q;
       }
     }
+    if (top < kCoherent) return 1;
     if (up_to > counts.back()) break;
-    width /= 4;
+    off /= 4;
   }
-  return std::abs(coherence(counts, best, counts.back())) > 0.8 ? best : 1;
+  return std::abs(coherence(counts, best, counts.back())) > kCoherent ? best : 1;
+}
+
+// The widest step of which the smallest change of the counts is a multiple: wheels that are not seen to start or stop
+// turn by several steps from one reading to the next.
+double wide_step(const std::vector<double>& counts, double smallest) {
+  for (double several = 1; smallest / several >= kFewest; ++several) {
+    const double step = step_about(counts, smallest / several, 1 / several);
+    if (step > 1) return step;
+  }
+  return 1;
 }
 
 struct Candidate {
@@ -121,7 +136,8 @@ double count_step(const Recording& recording) {
   if (counts.size() < kFewCounts) return 1;
   const double smallest = smallest_step(recording);
   if (smallest > 1e6) return 1;
-  return smallest < 3 ? narrow_step(counts) : wide_step(counts, smallest);
+  const double wide = wide_step(counts, smallest);
+  return wide > 1 ? wide : narrow_step(counts);
 }
 
 std::vector<double> steps_counted(const std::vector<EncoderSample>& samples, std::int64_t EncoderSample::*ticks,

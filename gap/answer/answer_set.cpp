@@ -90,7 +90,7 @@ void fill_set(const Context& w, const Found& found, const LeftUnexplained& left,
   d.set = tied(d.causes, w.thresholds);
   if (d.causes.front().name == "unknown") {
     // What explains more than anything of no particular cause could is worth knowing, even where it is not the whole.
-    if (!best.hypotheses.empty() && w.explained_by(best) > std::max(left.steady, kWorthKnowing * left.lack))
+    if (!best.hypotheses.empty() && w.explained_by(best) > std::max(left.steady(), kWorthKnowing * left.lack))
       add_what_explains(best, w.none, d);
     add_what_counts_show(w.model, w.none, w.thresholds, d);
     if (w.may_name(kUnevenFloor) && may_be_uneven_floor(w.model, w.none)) d.set.push_back(kUnevenFloor);

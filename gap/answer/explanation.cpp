@@ -76,7 +76,7 @@ bool named_without_fit(const Context& w, const LeftUnexplained& left, Fit& best,
       return true;
     }
   }
-  const auto shown = shown_commanded_motion(w.model, d.causes, w.none, w.left_by_none.steady, w.thresholds);
+  const auto shown = shown_commanded_motion(w.model, d.causes, w.none, w.left_by_none.steady(), w.thresholds);
   if (!shown) return false;
   add_nothing(d.closure);
   best = *shown;
@@ -92,7 +92,7 @@ void add_unknown(const Context& w, const Fit& best, bool leads, double leftover,
   cause.fit.hypotheses.clear();
   const Thresholds& t = w.thresholds;
   cause.score = leads ? d.causes.front().score + 0.5 * leftover
-                      : std::min(w.left_by_none.steady - 2 * t.effect_cost, d.causes.front().score - t.detect);
+                      : std::min(w.left_by_none.steady() - 2 * t.effect_cost, d.causes.front().score - t.detect);
   d.causes.push_back(std::move(cause));
   std::stable_sort(d.causes.begin(), d.causes.end(), [](const Cause& a, const Cause& b) { return a.score > b.score; });
 }
@@ -128,22 +128,19 @@ bool counts_lose(const Context& w, const Fit& fit, const Fit& richer) {
   return w.model.counts_misfit(fit) > counts + 2 * w.thresholds.addition;
 }
 
-// Whether `fit` leaves something that engines do not differ by, most of which `richer` explains.
-bool leaves_more_than_engines_do(const Context& w, const Fit& fit, const Fit& richer) {
-  const auto left = [&](const Fit& f) {
-    return f.hypotheses.empty() ? w.left_by_none : left_beside(*w.judge, f, w.thresholds);
-  };
-  const LeftUnexplained beside = left(fit);
-  return beside.beyond_engines(w.thresholds) && left(richer).in_tracks() < beside.in_tracks() / 2;
+// Whether `fit` leaves something that engines do not differ by, most of which is explained where `left` stays.
+bool leaves_more_than_engines_do(const Context& w, const Fit& fit, const LeftUnexplained& left) {
+  const LeftUnexplained beside = fit.hypotheses.empty() ? w.left_by_none : left_beside(*w.judge, fit, w.thresholds);
+  return beside.beyond_engines(w.thresholds) && left.in_tracks < beside.in_tracks / 2;
 }
 
 // On another engine's recordings a contact's effect, or a dimension, beside others that takes too little away on
 // held-out runs, does not show in counts, and without which nothing is left that engines do not do, is no cause: it
 // mends how the two engines' contacts differ. The combination with it stays behind, as not told apart.
-void name_what_foretells(const Context& w, Fit& best, Diagnosis& d) {
-  if (d.twin_is_nominal() || d.twin.hypotheses.size() == d.explanation.hypotheses.size()) return;
+void name_what_foretells(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis& d) {
+  if (d.not_fitted || d.twin_is_nominal() || d.twin.hypotheses.size() == d.explanation.hypotheses.size()) return;
   if (w.model.same_engine(best) || !twin_lacks_mends_alone(w.model, d)) return;
-  if (counts_lose(w, d.twin, d.explanation) || leaves_more_than_engines_do(w, d.twin, d.explanation)) return;
+  if (counts_lose(w, d.twin, d.explanation) || leaves_more_than_engines_do(w, d.twin, left)) return;
   best = d.explanation = d.twin;
   put_first(best, 2 * kAhead, d);
 }
@@ -211,13 +208,13 @@ bool found_alone(const Context& w, const Fit& fit) {
 // What is named where no track strays by more than noise makes it: what stays of the likeliest cause without contacts,
 // if it is detected without them, or all of it where contacts explain what engines do not. Where counts speak they
 // alone decide between causes: how contacts differ moves no counts.
-Fit beside_noise(const Context& w, const Diagnosis& d) {
+Fit beside_noise(const Context& w, const LeftUnexplained& left, const Diagnosis& d) {
   const Fit& likeliest = d.causes.front().fit;
   Fit named = without_contacts(w, likeliest, d.closure);
   if (!found_alone(w, named)) named = w.none;
   const bool rolls = !std::any_of(named.hypotheses.begin(), named.hypotheses.end(),
                                   [](const Hypothesis& h) { return shows_in_counts(h); });
-  if (rolls && leaves_more_than_engines_do(w, named, likeliest)) return likeliest;
+  if (rolls && leaves_more_than_engines_do(w, named, left)) return likeliest;
   if (rolls && !named.hypotheses.empty()) return named;
   for (const Cause& c : d.causes) {
     if (shown_by_counts(w, c.fit) <= shown_by_counts(w, named)) continue;
@@ -228,8 +225,8 @@ Fit beside_noise(const Context& w, const Diagnosis& d) {
 }
 
 // Leaves what contacts do within the noise of another engine's recordings out. Whether anything stays.
-bool name_beside_noise(const Context& w, Fit& best, Diagnosis& d) {
-  const std::string likeliest = std::exchange(best, beside_noise(w, d)).name();
+bool name_beside_noise(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis& d) {
+  const std::string likeliest = std::exchange(best, beside_noise(w, left, d)).name();
   if (best.hypotheses.empty() || best.name() != likeliest)
     d.limits.push_back(
         "no track strays by more than noise makes it: how engines' contacts differ is not told from an effect");
@@ -276,7 +273,7 @@ bool hidden_in_noise(const Context& w, const Fit& fit, const Closure& closure) {
 }
 
 void explain(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis& d) {
-  if (!d.in_poses && !name_beside_noise(w, best, d)) return;
+  if (!d.in_poses && !name_beside_noise(w, left, best, d)) return;
   const bool unknown =
       d.in_poses && !worth_more_than_rest(w.model, best, d.closure) &&
       is_unknown(left, w.left_by_none, w.explained_by(best), w.model.contacts_differ(best), w.thresholds) &&
@@ -286,7 +283,7 @@ void explain(const Context& w, const LeftUnexplained& left, Fit& best, Diagnosis
   d.explanation = best;
   make_twin(w, unknown, d);
   if (!unknown) {
-    name_what_foretells(w, best, d);
+    name_what_foretells(w, left, best, d);
     leave_the_ordinary_out(w, best, d);
   }
   d.remainder = remainder_of(w.model, w.screen, w.none, d, left.all());

@@ -44,15 +44,14 @@ double beside(double explained, double known, const Thresholds& t) {
 
 }  // namespace
 
-double LeftUnexplained::all() const { return std::max({steady, lack, sudden, late}); }
+double LeftUnexplained::all() const { return std::max({steady(), lack, sudden, late}); }
 
 LeftUnexplained left_unexplained(const Model& model, const Fit& fit, const Thresholds& t) {
   const double generic = generic_gain(model, fit);
   double density = model.held_density(fit) + generic;
   for (const std::size_t r : model.all_runs()) density -= model.filter(r).log_det() / 2;
-  const double counts = counts_left(model, fit);
-  return {generic + counts,
-          counts,
+  return {generic,
+          counts_left(model, fit),
           lack_of_fit(model, fit, t),
           sudden_left(model, fit, t),
           fit.hypotheses.empty() ? 0 : late_left(model, fit, t),
@@ -66,8 +65,8 @@ double may_be_left(double explained, bool contacts_differ, const Thresholds& t) 
 // A cause that is no likelier, beside errors of no particular cause, than these errors alone, is none.
 bool is_unknown(const LeftUnexplained& left, const LeftUnexplained& none, double explained, bool contacts_differ,
                 const Thresholds& t) {
-  const bool needed = left.density > none.density || left.steady <= t.detect;
-  return !needed || left.steady > may_be_left(explained, contacts_differ, t) ||
+  const bool needed = left.density > none.density || left.steady() <= t.detect;
+  return !needed || left.steady() > may_be_left(explained, contacts_differ, t) ||
          std::max({left.lack, left.sudden, left.late}) > beside(explained, t.known_share_of_shakes, t);
 }
 

@@ -10,18 +10,18 @@ namespace umbsim::gap {
 
 /// What a fit leaves that nothing of the catalogue explains, as log evidence.
 struct LeftUnexplained {
-  double steady = 0;   ///< errors of no particular cause, and counts that stray from commands
-  double counts = 0;   ///< of these, the part of counts
-  double lack = 0;     ///< misfit beyond noise, where the noise is known from repeated runs
-  double sudden = 0;   ///< an impulse at a place or at a moment, beyond what a difference of engines makes
-  double late = 0;     ///< readings that do not go with the counts, the same
-  double density = 0;  ///< log density of the runs under the fit and errors of no particular cause
-  double all() const;
+  double in_tracks = 0;  ///< errors of no particular cause
+  double in_counts = 0;  ///< counts that stray from commands
+  double lack = 0;       ///< misfit beyond noise, where the noise is known from repeated runs
+  double sudden = 0;     ///< an impulse at a place or at a moment, beyond what a difference of engines makes
+  double late = 0;       ///< readings that do not go with the counts, the same
+  double density = 0;    ///< log density of the runs under the fit and errors of no particular cause
 
-  double in_tracks() const { return steady - counts; }
+  double steady() const { return in_tracks + in_counts; }
+  double all() const;
   /// Whether tracks hold something steady that engines do not differ by, however few millimetres it is: many readings
   /// show a shift that is smaller than the noise of one run.
-  bool beyond_engines(const Thresholds& thresholds) const { return in_tracks() > thresholds.detect; }
+  bool beyond_engines(const Thresholds& thresholds) const { return in_tracks > thresholds.detect; }
 };
 
 LeftUnexplained left_unexplained(const Model& model, const Fit& fit, const Thresholds& thresholds);

@@ -24,10 +24,14 @@ bool alike(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
 // longer apart.
 constexpr double kSeldom_s = 0.5;
 
-// Large innovations count as 4 sigma.
+// A contaminated normal distribution (Tukey 1960): one innovation in a hundred is of ten times the deviation. The
+// likelier of the two counts, which a constant tells from their sum. A cap in place of the second would make no noise
+// at all likeliest once all innovations are beyond it.
 double robust_log_likelihood(const TrackFilter& filter, const Eigen::VectorXd& column) {
-  const Eigen::VectorXd white = filter.whiten(column);
-  return -0.5 * (filter.log_det() + white.array().square().min(16.0).sum());
+  constexpr double kShare = 0.01, kWider = 10;
+  const Eigen::ArrayXd half_squares = filter.whiten(column).array().square() / 2;
+  const double seldom = std::log((1 - kShare) * kWider / kShare);
+  return -0.5 * filter.log_det() - half_squares.min(seldom + half_squares / (kWider * kWider)).sum();
 }
 
 // What remains of one run when another like it is subtracted.
@@ -133,13 +137,14 @@ double log_prior(const NoiseModel& noise, const NoiseModel& usual) {
 // runs that repeat so well say nothing of its noise.
 constexpr double kUnseen_rad = 1;
 
-// The likelihood's maximum over the noise model, by a coordinate search on logarithms: a handful of numbers.
+// The likelihood's maximum over the noise model, by a coordinate search on logarithms: a handful of numbers. It looks
+// far at first, for beside a good fit stands one that takes most innovations for outliers.
 template <class Likelihood>
 NoiseModel most_likely(NoiseModel best, const Likelihood& log_likelihood) {
   double NoiseModel::*members[] = {&NoiseModel::heading_rad2_pm, &NoiseModel::along_m2_pm,    &NoiseModel::across_m2_pm,
                                    &NoiseModel::position_sd_m,   &NoiseModel::heading_sd_rad, &NoiseModel::clock_s};
   double best_value = log_likelihood(best);
-  for (double factor = 4; factor > 1.1; factor = std::sqrt(factor)) {
+  for (double factor = 64; factor > 1.1; factor = std::sqrt(factor)) {
     for (int sweep = 0; sweep < 2; ++sweep) {
       for (const auto member : members) {
         if (member == &NoiseModel::heading_sd_rad && best.heading_sd_rad > kUnseen_rad) continue;
@@ -148,7 +153,7 @@ NoiseModel most_likely(NoiseModel best, const Likelihood& log_likelihood) {
             NoiseModel trial = best;
             trial.*member *= f;
             const double value = log_likelihood(trial);
-            if (value <= best_value) break;
+            if (!(value > best_value)) break;  // nor where it is not a number
             best = trial;
             best_value = value;
           }

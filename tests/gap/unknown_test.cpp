@@ -73,12 +73,12 @@ TEST(Unknown, ACauseMayLeaveAsMuchAsEnginesDiffer) {
   LeftUnexplained none, left;
   none.density = -500;
   left.density = -100;
-  left.steady = 60;
+  left.in_tracks = 60;
   EXPECT_FALSE(is_unknown(left, none, kExplained, kElsewhere, t));
   EXPECT_TRUE(is_unknown(left, none, kExplained, kAtHome, t));
   left.density = -600;
   EXPECT_TRUE(is_unknown(left, none, kExplained, kElsewhere, t));
-  left.steady = 1;
+  left.in_tracks = 1;
   EXPECT_FALSE(is_unknown(left, none, kExplained, kElsewhere, t)) << "nothing is left that could be another cause";
 }
 

@@ -38,6 +38,22 @@ TEST(CoarseCounts, WidthOfTheSteps) {
   }
 }
 
+// A circle whose record begins and ends on the way: no two readings are one step apart.
+TEST(CoarseCounts, WheelsThatNeverRestTell) {
+  for (const double width : {1.0, 2.4147, 3.1, 6.735, 16.0, 24.3}) {
+    Recording recording;
+    RecordedRun run;
+    double angle = 0;
+    for (int i = 0; i < 1000; ++i) {
+      angle += 60 * (1 + 0.2 * std::sin(0.7 * i * i));
+      const auto count = std::int64_t(std::llround(std::round(angle / width) * width));
+      run.encoders.push_back({0.05 * i, count, count, 0, 0});
+    }
+    recording.runs.push_back(run);
+    EXPECT_NEAR(count_step(recording), width, 0.25 * width * width / 60000) << width;
+  }
+}
+
 TEST(CoarseCounts, StepsAreCountedFromAnyStart) {
   const Recording recording = driven(6.735, 6.735 * 100);
   const auto& samples = recording.runs[0].encoders;
