@@ -144,7 +144,7 @@ NoiseModel most_likely(NoiseModel best, const Likelihood& log_likelihood) {
   double NoiseModel::*members[] = {&NoiseModel::heading_rad2_pm, &NoiseModel::along_m2_pm,    &NoiseModel::across_m2_pm,
                                    &NoiseModel::position_sd_m,   &NoiseModel::heading_sd_rad, &NoiseModel::clock_s};
   double best_value = log_likelihood(best);
-  for (double factor = 64; factor > 1.1; factor = std::sqrt(factor)) {
+  for (double factor = 64; factor > 1.02; factor = std::sqrt(factor)) {
     for (int sweep = 0; sweep < 2; ++sweep) {
       for (const auto member : members) {
         if (member == &NoiseModel::heading_sd_rad && best.heading_sd_rad > kUnseen_rad) continue;
