@@ -11,9 +11,12 @@ constexpr std::size_t kFewCounts = 50;    // say nothing
 constexpr std::size_t kFirstCounts = 30;  // that the coarse look takes in
 constexpr std::size_t kCandidates = 200;  // narrow steps that are followed from one look to the next
 constexpr double kNarrowest = 1.05;
-constexpr double kNarrow = 3.2;  // up to here counts tell by those that never come
-constexpr double kFewest = 3;    // counts of a step that coherence tells
+constexpr double kNarrow = 4.2;  // up to here counts tell by those that never come
+constexpr double kSmallest = 4;  // change of counts from which on these tell by where they lie
+constexpr double kFewest = 6;    // counts of a step that rounding does not hide where no two readings are one apart
 constexpr double kCoherent = 0.8;
+constexpr double kEvery = 0.5;   // the same of changes, which rounding moves by more
+constexpr double kSeldom = 0.2;  // share of readings in which a wheel stands that turns by several steps otherwise
 
 // Different counts of the first run's left wheel, without sign, in order.
 std::vector<double> different_counts(const Recording& recording) {
@@ -75,12 +78,33 @@ double step_about(const std::vector<double>& counts, double about, double off) {
   return std::abs(coherence(counts, best, counts.back())) > kCoherent ? best : 1;
 }
 
+// What the left wheel turns from one reading to the next.
+std::vector<double> turned(const RecordedRun& run) {
+  std::vector<double> turned;
+  for (std::size_t i = 1; i < run.encoders.size(); ++i)
+    turned.push_back(double(run.encoders[i].left_ticks - run.encoders[i - 1].left_ticks));
+  return turned;
+}
+
+// Whether a wheel turns by such steps more or less from one reading to the next. At constant speed its counts come as
+// regularly as if it turned by any part of what it turns between two readings, but it is uneven by less.
+bool uneven_by(const std::vector<double>& turned, double step) {
+  std::vector<double> uneven;
+  for (std::size_t i = 1; i < turned.size(); ++i) {
+    const double by = std::abs(turned[i] - turned[i - 1]);
+    if (by >= step / 2) uneven.push_back(by);
+  }
+  return uneven.size() >= kFewCounts && coherence(uneven, step, 1e300).real() > kEvery;
+}
+
 // The widest step of which the smallest change of the counts is a multiple: wheels that are not seen to start or stop
 // turn by several steps from one reading to the next.
-double wide_step(const std::vector<double>& counts, double smallest) {
-  for (double several = 1; smallest / several >= kFewest; ++several) {
+double wide_step(const std::vector<double>& counts, const std::vector<double>& turned, double smallest) {
+  const auto standing = std::count(turned.begin(), turned.end(), 0.0);
+  const double most = double(standing) < kSeldom * double(turned.size()) ? smallest / kFewest : 1;
+  for (double several = 1; several <= most || several == 1; ++several) {
     const double step = step_about(counts, smallest / several, 1 / several);
-    if (step > 1) return step;
+    if (step > 1 && uneven_by(turned, step)) return step;
   }
   return 1;
 }
@@ -136,8 +160,8 @@ double count_step(const Recording& recording) {
   if (counts.size() < kFewCounts) return 1;
   const double smallest = smallest_step(recording);
   if (smallest > 1e6) return 1;
-  const double wide = wide_step(counts, smallest);
-  return wide > 1 ? wide : narrow_step(counts);
+  if (smallest < kSmallest) return narrow_step(counts);
+  return wide_step(counts, turned(recording.runs.front()), smallest);
 }
 
 std::vector<double> steps_counted(const std::vector<EncoderSample>& samples, std::int64_t EncoderSample::*ticks,
