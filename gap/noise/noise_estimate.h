@@ -15,8 +15,8 @@ struct NoiseEstimate {
   std::function<double(const NoiseModel&)> log_likelihood;
 };
 
-/// The noise of a recording by maximum likelihood, large innovations capped: from the differences of repeated runs,
-/// which no effect touches; where no two runs can be subtracted, from what radii, wheelbase, tracker's frame and clock
+/// The noise of a recording by maximum likelihood, beside a few outliers: from the differences of repeated runs, which
+/// no effect touches; where no two runs can be subtracted, from what radii, wheelbase, tracker's frame and clock
 /// leave; nowhere below `least` (gap/noise/least_noise.h), whatever repeats say. Of end points, which are few, by
 /// maximum a posteriori beside what is usual.
 NoiseEstimate estimate_noise(const NominalReplay& nominal, const NoiseModel& least);
