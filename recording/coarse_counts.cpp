@@ -52,28 +52,31 @@ std::complex<double> coherence(const std::vector<double>& counts, double width, 
   return n > 10 ? sum / n : 0;
 }
 
+// Of the widths in [about - off, about + off], n either way, that in which counts agree best.
+double most_coherent(const std::vector<double>& counts, double about, double off, int n, double up_to) {
+  double best = about, top = 0;
+  for (int i = -n; i <= n; ++i) {
+    const double width = about + off * i / n;
+    const double value = width > kNarrowest ? std::abs(coherence(counts, width, up_to)) : 0;
+    if (value <= top) continue;
+    top = value;
+    best = width;
+  }
+  return best;
+}
+
 // The step in [about - off, about + off], from a look at the first counts to a finer one at all of them; 1 if there is
-// none.
+// none. Counts from the smallest on.
 double step_about(const std::vector<double>& counts, double about, double off) {
   double best = about;
   const double enough = counts[std::min(counts.size() - 1, kFirstCounts)];
   for (double up_to = std::max(about * 12, enough); off > 1e-6 * best; up_to *= 4) {
-    double top = 0;
-    const double centre = best;
-    const int n =
-        std::max(40, int(off * 12 * up_to / (about * about)));  // so close that no phase turns by half a radian
-    for (int i = -n; i <= n; ++i) {
-      const double q = centre + off * i / n;
-      if (q < 1.5) continue;
-      const double value = std::abs(coherence(counts, q, up_to));
-      if (value > top) {
-        top = value;
-        best = q;
-      }
-    }
-    if (top < kCoherent) return 1;
+    // So close that no phase turns by half a radian from one to the next.
+    const int n = std::max(40, int(std::min(1e5, off * 12 * up_to / (about * about))));
+    best = most_coherent(counts, best, off, n, up_to);
+    if (std::abs(coherence(counts, best, up_to)) < kCoherent) return 1;
     if (up_to > counts.back()) break;
-    off /= 4;
+    off *= 10.0 / n;
   }
   return std::abs(coherence(counts, best, counts.back())) > kCoherent ? best : 1;
 }
@@ -115,18 +118,27 @@ struct Candidate {
   bool all = false;     // are multiples
 };
 
+// Beyond the nearest multiple below, the counts of rounded multiples lie within one count of each other, wherever the
+// counter began. As many as say enough are looked at.
 Candidate candidate(const std::vector<double>& counts, double width, double up_to) {
+  constexpr std::ptrdiff_t kEnough = 250;
   const double miss = std::log(0.05);  // of a width that is nearly right
-  double n = 0;
-  double hits = 0;
-  for (const double c : counts) {
-    if (c > up_to) break;
-    n += 1;
-    // Of the nearest multiple. NOLINTNEXTLINE(bugprone-incorrect-roundings): c has no sign
-    const double off = double(std::int64_t(c / width + 0.5)) * width - c;
-    hits += off >= -0.5 && off < 0.5;
+  const auto end = std::upper_bound(counts.begin(), counts.end(), up_to);
+  const std::ptrdiff_t stride = std::max<std::ptrdiff_t>(1, (end - counts.begin()) / kEnough);
+  std::vector<double> beyond;
+  for (std::ptrdiff_t i = 0; i < end - counts.begin(); i += stride) {
+    const double c = counts[std::size_t(i)];
+    beyond.push_back(c - std::floor(c / width) * width);
   }
-  return {width, hits * std::log(width) + (n - hits) * miss, hits > 0.995 * n};
+  std::sort(beyond.begin(), beyond.end());
+  const std::size_t n = beyond.size();
+  std::size_t hits = 0;
+  for (std::size_t first = 0, last = 0; first < n; ++first) {
+    const auto from_first = [&](std::size_t k) { return beyond[k % n] + (k < n ? 0 : width) - beyond[first]; };
+    while (last < first + n && from_first(last) < 1) ++last;
+    hits = std::max(hits, last - first);
+  }
+  return {width, double(hits) * std::log(width) + double(n - hits) * miss, double(hits) > 0.995 * double(n)};
 }
 
 // Steps of a few counts: rounding hides where they lie, but some counts never come.
@@ -150,14 +162,19 @@ double narrow_step(const std::vector<double>& counts) {
     kept = std::move(finer);
   }
   constexpr double kSure = 20;
-  return kept.front().all && kept.front().evidence > kSure ? kept.front().width : 1;
+  if (!kept.front().all || kept.front().evidence < kSure) return 1;
+  // Whole multiples fit in with widths that are a little too large.
+  const double likeliest = kept.front().width, off = 2 * likeliest * likeliest / counts.back();
+  return most_coherent(counts, likeliest, off, 100, counts.back());
 }
 
 }  // namespace
 
 double count_step(const Recording& recording) {
-  const std::vector<double> counts = different_counts(recording);
+  std::vector<double> counts = different_counts(recording);
   if (counts.size() < kFewCounts) return 1;
+  // A counter may have been running for long.
+  for (auto c = counts.rbegin(); c != counts.rend(); ++c) *c -= counts.front();
   const double smallest = smallest_step(recording);
   if (smallest > 1e6) return 1;
   if (smallest < kSmallest) return narrow_step(counts);

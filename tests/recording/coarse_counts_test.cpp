@@ -70,6 +70,13 @@ TEST(CoarseCounts, AConstantSpeedIsNoStep) {
   }
 }
 
+// The same of counters that have been running for long.
+TEST(CoarseCounts, WidthOfTheStepsOfAnOldCounter) {
+  for (const double width : {1.0, 1.2567, 2.4147, 3.7, 6.735}) {
+    EXPECT_NEAR(count_step(driven(width, 1e9 / 7)), width, 0.5 * width * width / 15000) << width;
+  }
+}
+
 TEST(CoarseCounts, StepsAreCountedFromAnyStart) {
   const Recording recording = driven(6.735, 6.735 * 100);
   const auto& samples = recording.runs[0].encoders;
