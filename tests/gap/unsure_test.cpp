@@ -71,12 +71,12 @@ TEST(UnsureModel, ForgivesWhatTheEffectsOfAFitMayDoOtherwise) {
   const ToedWheel t;
   ASSERT_NEAR(t.fit.p[0], t.kToe_rad, 0.1 * t.kToe_rad);
   const Model unsure = t.unsure(0);
-  const auto toed_more = t.toed(1.5), wider = t.beside(effect("wheelbase", {{"relative", 0.02}}));
+  const auto toed_more = t.toed(1.6), wider = t.beside(effect("wheelbase", {{"relative", 0.02}}));
   const double toe = lost(t.model, t.fit, toed_more), unsure_toe = lost(unsure, t.fit, toed_more);
   const double base = lost(t.model, t.fit, wider), unsure_base = lost(unsure, t.fit, wider);
-  std::printf("toe by half more: %.1f lost, unsure %.1f; a wheelbase: %.1f, unsure %.1f\n", toe, unsure_toe, base,
+  std::printf("toe by 0.6 more: %.1f lost, unsure %.1f; a wheelbase: %.1f, unsure %.1f\n", toe, unsure_toe, base,
               unsure_base);
-  EXPECT_GT(toe, 20);
+  EXPECT_GT(toe, 50);
   EXPECT_LT(unsure_toe, 0.2 * toe);
   EXPECT_GT(base, 100);
   EXPECT_GT(unsure_base, 0.3 * base);
