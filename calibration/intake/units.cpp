@@ -58,6 +58,7 @@ struct Totals {
   double tracked_m = 0;
   double counted_turn_rad = 0;
   double tracked_turn_rad = 0;
+  double squares_rad2 = 0, products_rad2 = 0;      ///< of counted turns, and with the tracked ones: these have signs
   double left_m = 0, right_m = 0;                  ///< as counted
   double tracked_left_m = 0, tracked_right_m = 0;  ///< as the tracker says that they must have rolled
 };
@@ -69,12 +70,35 @@ Totals totals(const std::vector<Piece>& pieces, double wheelbase_m) {
     t.tracked_m += std::hypot(p.tracked.x_m, p.tracked.y_m);
     t.counted_turn_rad += std::abs(p.right_m - p.left_m) / wheelbase_m;
     t.tracked_turn_rad += std::abs(p.tracked.theta_rad);
+    t.squares_rad2 += std::pow((p.right_m - p.left_m) / wheelbase_m, 2);
+    t.products_rad2 += (p.right_m - p.left_m) / wheelbase_m * p.tracked.theta_rad;
     t.left_m += std::abs(p.left_m);
     t.right_m += std::abs(p.right_m);
     t.tracked_left_m += std::abs(p.tracked.x_m - wheelbase_m / 2 * p.tracked.theta_rad);
     t.tracked_right_m += std::abs(p.tracked.x_m + wheelbase_m / 2 * p.tracked.theta_rad);
   }
   return t;
+}
+
+// How many times as far as the wheels say the robot turns, by least squares: a robot that slips, and turns where its
+// wheels do not, has no other wheelbase.
+double times_turned(const Totals& t) {
+  return t.counted_turn_rad > kTurn_rad ? t.products_rad2 / t.squares_rad2
+                                        : t.tracked_turn_rad / std::max(t.counted_turn_rad, 1e-12);
+}
+
+double times_rolled(const Totals& t) { return t.tracked_m / std::max(t.counted_m, 1e-12); }
+
+// Whether another run goes and turns as its wheels say. Units are the same in all runs: then what falls short in one
+// slips.
+bool another_agrees(const RecordedRun& run, const Recording& recording) {
+  return std::any_of(recording.runs.begin(), recording.runs.end(), [&](const RecordedRun& other) {
+    if (&other == &run || other.encoders.empty() || other.truth.empty()) return false;
+    const Totals t = totals(pieces_of(other, recording), recording.robot.wheelbase_m);
+    const double turns = times_turned(t), rolls = times_rolled(t);
+    return t.counted_m > kWay_m && rolls > kScaleLow && rolls < kScaleHigh &&
+           (t.counted_turn_rad < kTurn_rad || (turns > kTurnLow && turns < kTurnHigh));
+  });
 }
 
 double wiring_score(const std::vector<Piece>& pieces, const Totals& t, double wheelbase_m, const Wiring& w) {
@@ -167,15 +191,16 @@ void check_scale(const std::string& directory, const RecordedRun& run, const Rec
   check_mirrored(directory, run, pieces);
   check_wiring(directory, run, pieces, t, robot.wheelbase_m);
   // Path length is taken where there is some; both sides scale alike.
-  const double ratio = t.tracked_m / std::max(t.counted_m, 1e-12);
-  if ((t.counted_m > kWay_m || t.tracked_m > kWay_m) && (ratio < kScaleLow || ratio > kScaleHigh)) {
+  const double ratio = times_rolled(t);
+  if ((t.counted_m > kWay_m || t.tracked_m > kWay_m) &&
+      (ratio > kScaleHigh || (ratio < kScaleLow && !another_agrees(run, recording)))) {
     refuse(directory, run,
            fmt::format("the truth's way is {:.4g} times the wheels' ({:.4g} m against {:.4g} m): {}.", ratio,
                        t.tracked_m, t.counted_m, why_lengths_differ(ratio, robot, "the truth's x_m and y_m are")));
   }
   if (t.tracked_turn_rad > kTurn_rad || t.counted_turn_rad > kTurn_rad) {
-    const double turns = t.tracked_turn_rad / std::max(t.counted_turn_rad, 1e-12);
-    if (turns > kTurnHigh || turns < kTurnLow) {
+    const double turns = times_turned(t);
+    if (turns > kTurnHigh || (turns < kTurnLow && !another_agrees(run, recording))) {
       refuse(directory, run,
              fmt::format("the truth turns {:.3g} times as much as the wheels: {}.", turns, why_turns_differ(turns)));
     }

@@ -322,6 +322,28 @@ TEST(CheckRecording, ASlowRobotBeforeANoisyCamera) {
   EXPECT_NO_THROW(check_recording(recording, "here"));
 }
 
+// What slips in one run goes and turns as its wheels say in others: its units are right.
+TEST(CheckRecording, ARunOnIceIsNoWrongUnit) {
+  Recording spins = good();  // by 4 rad, halfway along its first leg
+  std::vector<TruthSample>& truth = spins.runs.front().truth;
+  const double from_s = 2, takes_s = 2;
+  const Pose2 there =
+      std::find_if(truth.begin(), truth.end(), [&](const TruthSample& t) { return t.time_s >= from_s; })->X_WB;
+  for (TruthSample& t : truth) {
+    const double spun_rad = 4 * std::clamp((t.time_s - from_s) / takes_s, 0.0, 1.0);
+    if (spun_rad > 0) t.X_WB = there * Pose2{0, 0, spun_rad} * (inverse(there) * t.X_WB);
+  }
+  EXPECT_NO_THROW(check_recording(spins, "here"));
+  const auto halve = [](RecordedRun& run) {
+    for (TruthSample& t : run.truth) t.X_WB.x_m /= 2, t.X_WB.y_m /= 2;
+  };
+  Recording slips = good();
+  halve(slips.runs.front());
+  EXPECT_NO_THROW(check_recording(slips, "here"));
+  for (std::size_t r = 1; r < slips.runs.size(); ++r) halve(slips.runs[r]);
+  EXPECT_THROW(check_recording(slips, "here"), InputError);
+}
+
 // One intake: whoever measures on a recording refuses it in the same words.
 void expect_refused_by_the_program(const Recording& recording, const Bad& bad) {
   SCOPED_TRACE(bad.name);
