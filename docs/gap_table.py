@@ -87,12 +87,13 @@ def cells(r):
 
 
 def missed_intervals(rows):
-    """What the intervals of right causes miss: they hold the noise, and not what engines differ by."""
+    """What the intervals of right causes hold, and miss."""
     right = [r for r in rows if r["right"] and r["truth"] != "none"]
     held = sum(r["intervals"][0] for r in right)
     missed = [f"case {r['case'][-2:]} {text}" for r in right for text in r["intervals"][1]]
-    return (f"Of {held + len(missed)} 95 % intervals of right causes {held} hold the truth. They hold noise and the "
-            f"nuisances, and not how far engines differ in what the effect itself does. The others: {'; '.join(missed)}.")
+    text = (f"Of {held + len(missed)} 95 % intervals of right causes {held} hold the truth. They hold noise, nuisances, and "
+            "how far the same effect comes out otherwise in other engines.")
+    return text + (f" The others: {'; '.join(missed)}." if missed else "")
 
 
 def table(rows):

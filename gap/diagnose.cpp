@@ -66,7 +66,8 @@ Diagnosis diagnose(const Model& model, const std::set<std::string>& excluded, co
   d.unexplained = d.detected && left.all() > t.detect;
   d.unexplained_p = chi_squared_tail(2 * std::max(0.0, left.all()), 2);
   if (d.detected) explain(context, left, best, d);
-  give_probabilities(d.causes);
+  d.elsewhere = !model.same_engine(best);
+  give_probabilities(d.causes, d.elsewhere);
   measure(context, left, best, d);
   fill_set(context, found, left, best, d);
   say_where(model, none, best, d);

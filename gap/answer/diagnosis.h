@@ -103,6 +103,7 @@ struct Diagnosis {
   double before_mm = 0;             ///< root mean square position error of the scenario as it was
   double explainable_fraction = 0;  ///< of the evidence for a gap, what the first cause takes
   double overdispersion = 1;        ///< residual variance of the first cause's fit, over the noise model's
+  bool elsewhere = false;           ///< another engine, or a real robot, made the recording
   std::vector<std::string> limits;  ///< what makes the answer smaller, in words
   double simulated_s = 0;
 };

@@ -17,6 +17,10 @@ constexpr double kNoMore = 2;          // mean squares that count as no more tha
 constexpr double kLittle = 0.05;       // of what a combination explains: more than that no held-out runs outvote
 constexpr double kOverconfidence = 2;  // evidence is divided by this before it becomes probability
 constexpr double kEqual = 1;           // log evidence
+// Share of answers that have little to do with their odds (lapse rate, Wichmann & Hill 2001): of recordings that this
+// simulator made, and of others. docs/worlds.md, "How sure an answer may be".
+constexpr double kLapsesHere = 0.02;
+constexpr double kLapsesElsewhere = 0.3;
 
 // Whether both hold as many effects, and all but one are the same.
 bool differ_by_one_effect(const Fit& a, const Fit& b) {
@@ -56,12 +60,13 @@ std::vector<Cause> ranked(const std::vector<Fit>& fits, const Thresholds& t) {
   return causes;
 }
 
-void give_probabilities(std::vector<Cause>& causes) {
+void give_probabilities(std::vector<Cause>& causes, bool elsewhere) {
   double best = -1e300;
   for (const Cause& c : causes) best = std::max(best, c.score);
   double sum = 0;
   for (Cause& c : causes) sum += c.probability = std::exp((c.score - best) / kOverconfidence);
-  for (Cause& c : causes) c.probability /= sum;
+  const double lapses = causes.size() < 2 ? 0 : elsewhere ? kLapsesElsewhere : kLapsesHere;
+  for (Cause& c : causes) c.probability = (1 - lapses) * c.probability / sum + lapses / double(causes.size());
 }
 
 namespace {

@@ -24,7 +24,8 @@ void prefer_what_predicts(const Model& model, std::vector<Cause>& causes, const 
 /// Of explanations that are equally good, one goes first in which no contact takes part: it is the same on any floor.
 void prefer_kinematic(std::vector<Cause>& causes);
 
-/// From their scores.
-void give_probabilities(std::vector<Cause>& causes);
+/// From their scores, and from how often an answer is beside the truth whatever these say. `elsewhere`: this simulator
+/// did not make the recording.
+void give_probabilities(std::vector<Cause>& causes, bool elsewhere);
 
 }  // namespace umbsim::gap

@@ -1,108 +1,15 @@
 #include "gap/output/diagnosis_json.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "core/random.h"
+#include "gap/output/parameter_estimates.h"
 
 namespace umbsim::gap {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int kParameterDraws = 2000;
-// What a replay is off by that no residual shows, standard deviations, from development trials (docs/gap.md).
-constexpr double kReplayShare = 0.03;  // of a size, against its neutral value
-constexpr double kScrubShare =
-    0.08;  // of what scrubs: the floor's roughness, which lets the wheels slip, is known to a fifth
-constexpr double kReplayAngle_rad = 0.01;
-constexpr double kReplayPlace_m = 0.005;
-constexpr double kReplayMoment_s = 0.01;
-
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
-
-bool is_angle(const EffectParameter& p) { return p.unit == "rad" && p.bounds.min <= -3 && p.bounds.max >= 3; }
-
-double replay_sd(const std::string& effect, const EffectParameter& p, double value, double neutral) {
-  if (is_angle(p)) return kReplayAngle_rad;
-  if (p.name == "x_m" || p.name == "y_m") return kReplayPlace_m;
-  if (p.name == "leg") return 0;
-  if (p.name == "seconds_into_leg") return kReplayMoment_s;
-  return (is(effect, kScrubs) ? kScrubShare : kReplayShare) * std::abs(value - neutral);
-}
-
-}  // namespace
-
-// Draws from the posterior, seen through the hypothesis's own coordinates.
-std::vector<ParameterEstimate> parameter_estimates(const Fit& fit, double overdispersion) {
-  std::vector<ParameterEstimate> estimates;
-  if (fit.hypotheses.empty()) return estimates;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(fit.covariance * overdispersion);
-  const Eigen::MatrixXd root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-  RandomStream random(1, "parameter intervals");
-  std::vector<Eigen::VectorXd> draws;
-  for (int i = 0; i < kParameterDraws; ++i) {
-    Eigen::VectorXd z(fit.p.size());
-    for (Eigen::Index j = 0; j < z.size(); ++j) z[j] = random.normal();
-    draws.push_back(fit.p + root * z);
-  }
-  Eigen::Index at = 0;
-  for (const Hypothesis& f : fit.hypotheses) {
-    const Eigen::Index n = Eigen::Index(f.parameters.size());
-    const EffectInfo& info = find_effect(f.effect);
-    const EffectValues best = f.values(fit.p.segment(at, n));
-    const EffectValues neutral = neutral_effect(info).values;
-    for (std::size_t k = 0; k < info.parameters.size(); ++k) {
-      std::vector<double> values;
-      for (const Eigen::VectorXd& draw : draws) {
-        double v = f.values(draw.segment(at, n)).numbers[k];
-        if (is_angle(info.parameters[k])) v = best.numbers[k] + std::remainder(v - best.numbers[k], 2 * M_PI);
-        values.push_back(v);
-      }
-      std::sort(values.begin(), values.end());
-      const bool fixed = values.front() == values.back();
-      if (fixed && best.numbers[k] == neutral.numbers[k]) continue;
-      const double best_k = best.numbers[k];
-      const double replay = 1.96 * replay_sd(f.effect, info.parameters[k], best_k, neutral.numbers[k]);
-      const Bounds possible = is_angle(info.parameters[k]) ? Bounds{} : info.parameters[k].bounds;
-      estimates.push_back(
-          {f.effect,
-           info.parameters[k].name,
-           info.parameters[k].unit,
-           best_k,
-           {std::max(std::min(best_k, possible.min),
-                     best_k - std::hypot(best_k - values[kParameterDraws / 40], replay)),
-            std::min(std::max(best_k, possible.max),
-                     best_k + std::hypot(values[kParameterDraws - 1 - kParameterDraws / 40] - best_k, replay))}});
-    }
-    at += n;
-  }
-  return estimates;
-}
-
-std::vector<ParameterEstimate> parameter_estimates(const Cause& cause, double overdispersion) {
-  std::vector<ParameterEstimate> estimates = parameter_estimates(cause.fit, overdispersion);
-  for (const Fit& variant : cause.variants) {
-    for (const ParameterEstimate& v : parameter_estimates(variant, overdispersion)) {
-      const EffectInfo& info = find_effect(v.effect);
-      const auto parameter = std::find_if(info.parameters.begin(), info.parameters.end(),
-                                          [&](const EffectParameter& p) { return p.name == v.parameter; });
-      if (is_angle(*parameter)) continue;  // of what may not be there
-      const auto same = [&](const ParameterEstimate& e) { return e.effect == v.effect && e.parameter == v.parameter; };
-      auto at = std::find_if(estimates.begin(), estimates.end(), same);
-      if (at == estimates.end()) {
-        const double neutral = parameter->neutral;
-        at = estimates.insert(at, {v.effect, v.parameter, v.unit, neutral, {neutral, neutral}});
-      }
-      at->ci95[0] = std::min(at->ci95[0], v.ci95[0]);
-      at->ci95[1] = std::max(at->ci95[1], v.ci95[1]);
-    }
-  }
-  return estimates;
-}
-
-namespace {
 
 Json parameter_json(const ParameterEstimate& e) {
   Json json{{"value", e.value}, {"ci95", {e.ci95[0], e.ci95[1]}}, {"unit", e.unit}};
@@ -150,23 +57,6 @@ Json remarks_of(const Diagnosis& d) {
 
 }  // namespace
 
-std::vector<ParameterEstimate> effective_dimensions(const Diagnosis& d) {
-  std::vector<ParameterEstimate> found;
-  if (!d.effective) return found;
-  const auto& names = d.effective->dimensions;
-  for (const ParameterEstimate& e : parameter_estimates(d.effective->fit, d.overdispersion)) {
-    if (std::find(names.begin(), names.end(), e.effect) != names.end()) found.push_back(e);
-  }
-  return found;
-}
-
-FoundParameter found(const ParameterEstimate& e) { return {e.parameter, e.value, e.ci95[0], e.ci95[1]}; }
-
-std::string shown_text(const ParameterEstimate& e) {
-  const EffectInfo& info = find_effect(e.effect);
-  return is_neutral(info, found(e)) ? "" : shown(info, found(e));
-}
-
 Json diagnosis_json(const Diagnosis& d) {
   Json json{{"format", "umbsim-diagnosis/1"}};
   json["gap"] = {{"detected", d.detected},
@@ -194,7 +84,7 @@ Json diagnosis_json(const Diagnosis& d) {
       effects[c.name] = Json::object();
     } else {
       for (const Hypothesis& f : c.fit.hypotheses) effects[f.effect] = Json::object();
-      for (const ParameterEstimate& e : parameter_estimates(c, d.overdispersion)) {
+      for (const ParameterEstimate& e : parameter_estimates(c, d)) {
         effects[e.effect][e.parameter] = parameter_json(e);
       }
       for (const Effect& e : c.fit.effects()) {

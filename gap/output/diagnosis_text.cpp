@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/text/wrapped_text.h"
-#include "gap/output/diagnosis_json.h"
+#include "gap/output/parameter_estimates.h"
 #include "gap/output/verdict.h"
 
 namespace umbsim::gap {
@@ -16,7 +16,7 @@ constexpr std::size_t kBelow = 11;  // the percentage
 // Each number by its effect, in the order of the effects' names; those that stayed neutral are left out.
 std::string numbers_text(const Cause& cause, const Diagnosis& d) {
   std::map<std::string, std::vector<std::string>> by_effect;
-  for (const ParameterEstimate& e : parameter_estimates(cause, d.overdispersion)) {
+  for (const ParameterEstimate& e : parameter_estimates(cause, d)) {
     if (const std::string text = shown_text(e); !text.empty()) by_effect[e.effect].push_back(text);
   }
   for (const Effect& e : cause.fit.effects()) {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "gap/output/diagnosis_json.h"
+#include "gap/output/parameter_estimates.h"
 
 namespace umbsim::gap {
 namespace {
@@ -112,7 +112,7 @@ std::vector<Doubt> doubts(const Diagnosis& d) {
 
 Texts sentences(const Diagnosis& d) {
   const Cause& first = d.causes.front();
-  const std::vector<ParameterEstimate> estimates = parameter_estimates(first, d.overdispersion);
+  const std::vector<ParameterEstimate> estimates = parameter_estimates(first, d);
   Texts all;
   for (const std::string& name : effects_in(first.name)) {
     std::vector<FoundParameter> numbers;

@@ -11,6 +11,7 @@
 
 #include "calibration/intake/intake.h"
 #include "gap/output/diagnosis_json.h"
+#include "gap/output/parameter_estimates.h"
 #include "gap/search/addition.h"
 #include "tests/gap/subject.h"
 
@@ -26,7 +27,7 @@ std::string text(const Diagnosis& d) {
   for (const Cause& c : d.causes) {
     if (c.probability < 0.001) continue;
     all += fmt::format("\n  {:.3f} {}", c.probability, c.name);
-    for (const ParameterEstimate& e : parameter_estimates(c.fit, d.overdispersion)) {
+    for (const ParameterEstimate& e : parameter_estimates(c.fit, d)) {
       all += fmt::format(" {} {:.5g} [{:.5g} {:.5g}]", e.parameter, e.value, e.ci95[0], e.ci95[1]);
     }
   }
@@ -35,7 +36,7 @@ std::string text(const Diagnosis& d) {
 
 /// A good answer is the true value within its own interval, or within 15 % of it.
 void expect_parameter(const Diagnosis& d, const std::string& parameter, double truth) {
-  for (const ParameterEstimate& e : parameter_estimates(d.causes.front().fit, d.overdispersion)) {
+  for (const ParameterEstimate& e : parameter_estimates(d.causes.front().fit, d)) {
     if (e.parameter != parameter) continue;
     const bool covered = e.ci95[0] <= truth && truth <= e.ci95[1];
     EXPECT_TRUE(covered || std::abs(e.value - truth) < 0.15 * std::abs(truth))

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,27 @@ TEST(Ranking, WhatPredictsHeldOutRunsWorseGivesWay) {
   EXPECT_EQ(first({wheelbase(1000), difference(960)}), "wheelbase") << "as many effects, and worse";
   EXPECT_EQ(first({difference(1000), both(990)}), "wheel_radius_difference") << "more effects never come first by this";
   EXPECT_EQ(first({both(1000), difference(960)}), "wheel_radius_difference+wheelbase") << "fewer, and worse";
+}
+
+// However large the odds, a known share of answers is beside the truth: of other engines' recordings the larger one.
+TEST(Probabilities, AreNoSurerThanAnswersAre) {
+  const auto given = [](std::vector<double> scores, bool elsewhere) {
+    std::vector<Cause> causes;
+    for (const double score : scores) causes.push_back({"", {}, score, 0});
+    give_probabilities(causes, elsewhere);
+    std::vector<double> probabilities;
+    for (const Cause& c : causes) probabilities.push_back(c.probability);
+    EXPECT_NEAR(std::accumulate(probabilities.begin(), probabilities.end(), 0.0), 1, 1e-12);
+    return probabilities;
+  };
+  const std::vector<double> scores{1000, 20, 3, 0};
+  const double here = given(scores, false).front(), elsewhere = given(scores, true).front();
+  EXPECT_GT(here, 0.97);
+  EXPECT_LT(here, 0.99);
+  EXPECT_LT(elsewhere, 0.9);
+  EXPECT_GT(elsewhere, 0.5);
+  EXPECT_EQ(given({0}, true), std::vector<double>{1}) << "nothing else is listed";
+  EXPECT_EQ(given({5, 5}, true), (std::vector<double>{0.5, 0.5}));
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 #include "calibration/intake/intake.h"
 #include "gap/answer/closure.h"
-#include "gap/output/diagnosis_json.h"
+#include "gap/output/parameter_estimates.h"
 #include "tests/gap/recordings.h"
 #include "tests/gap/subject.h"
 
@@ -93,7 +93,7 @@ TEST(CountsOfAnotherEngine, NeedNoMarginForContacts) {
   const Diagnosis d = diagnose(model, {}, Thresholds{}, [](const std::string&, double) {});
   ASSERT_EQ(d.causes.front().name, "motor_response");
   EXPECT_FALSE(d.in_poses);
-  for (const ParameterEstimate& e : parameter_estimates(d.causes.front(), d.overdispersion)) {
+  for (const ParameterEstimate& e : parameter_estimates(d.causes.front(), d)) {
     if (e.parameter != "gain_asymmetry") continue;
     std::cout << fmt::format("{}: score {:.1f}, {:.4g} [{:.4g}, {:.4g}]\n", e.parameter, d.causes.front().score,
                              e.value, e.ci95[0], e.ci95[1]);
@@ -126,7 +126,7 @@ TEST_P(SecondEngine, TheCauseIsNamed) {
   const Cause& first = d.causes.front();
   std::string said = fmt::format("{}: {} (set {})", label.folder, first.name, fmt::join(d.set, ", "));
   double error = 0;
-  for (const ParameterEstimate& e : parameter_estimates(first.fit, d.overdispersion)) {
+  for (const ParameterEstimate& e : parameter_estimates(first.fit, d)) {
     if (e.parameter != label.parameter) continue;
     error = std::abs(e.value - label.value) / std::abs(label.value);
     said += fmt::format(", {} {:.4g} [{:.4g}, {:.4g}], true {:.4g}: off by {:.1f} %", e.parameter, e.value, e.ci95[0],

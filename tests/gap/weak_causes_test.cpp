@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "gap/output/diagnosis_json.h"
+#include "gap/output/parameter_estimates.h"
 #include "gap/replay/command_response.h"
 #include "tests/gap/subject.h"
 
@@ -19,7 +19,7 @@ using testing::Subject;
 
 /// The estimate of a parameter of the first cause, printed.
 ParameterEstimate estimate(const Diagnosis& d, const std::string& parameter) {
-  for (const ParameterEstimate& e : parameter_estimates(d.causes.front(), d.overdispersion)) {
+  for (const ParameterEstimate& e : parameter_estimates(d.causes.front(), d)) {
     if (e.parameter != parameter) continue;
     std::cout << fmt::format("{}: {} {:.5g} [{:.5g}, {:.5g}] {}\n", d.causes.front().name, parameter, e.value,
                              e.ci95[0], e.ci95[1], e.unit);
@@ -283,10 +283,10 @@ Fit told(const std::string& variant, double value, double sd) {
 TEST(WeakCause, VariantsWidenIntervalsAndChangeNoValue) {
   const Fit right = told("right", 1e-4, 1e-5);
   Cause cause{"wear", right, 0, 0};
-  const std::vector<ParameterEstimate> alone = parameter_estimates(cause, 1);
+  const std::vector<ParameterEstimate> alone = parameter_estimates(cause, Diagnosis{});
   ASSERT_EQ(alone.size(), 1u);
   cause.variants = {told("both", 6e-5, 2e-5)};
-  const std::vector<ParameterEstimate> all = parameter_estimates(cause, 1);
+  const std::vector<ParameterEstimate> all = parameter_estimates(cause, Diagnosis{});
   ASSERT_EQ(all.size(), 2u);
   for (const ParameterEstimate& e : all) {
     if (e.parameter == "right_relative_per_run") {

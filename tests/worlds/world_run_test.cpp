@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bench/worlds/run/compare.h"
+#include "bench/worlds/run/fault.h"
 
 namespace umbsim::worlds {
 namespace {
@@ -28,6 +29,22 @@ TEST(WorldRun, ARobotDrivesWhereEveryRunEndsNearTheEndOfItsCourse) {
   DrivenWorld stopped = driven;
   stopped.arrived[1] = false;
   EXPECT_FALSE(drives(w, stopped));
+}
+
+// A reading is the newest that is old enough: 5 ms and 40 ms late are both one period of 40 ms late. The answer says
+// so.
+TEST(DrawnFault, CountsAreLateByWholePeriods) {
+  World w = plain_world("ours");
+  w.driver.rate_hz = 25;
+  RandomStream random(1, "fault");
+  const DrawnFault late = draw_fault("encoder_latency", w, random);
+  const auto seconds = [&](double drawn_s) {
+    const Effect effect = late.at(drawn_s).effects.front();
+    return effect.values.numbers[0];
+  };
+  EXPECT_NEAR(seconds(0.02), 0.04, 1e-12);
+  EXPECT_NEAR(seconds(0.04), 0.04, 1e-12);
+  EXPECT_NEAR(seconds(0.06), 0.08, 1e-12);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   umbsim::worlds::add_differences_command(app);
   umbsim::worlds::add_inject_command(app);
   umbsim::worlds::add_learn_command(app);
+  umbsim::worlds::add_numbers_command(app);
   umbsim::worlds::add_score_command(app);
   umbsim::worlds::add_servos_command(app);
   umbsim::worlds::add_table_command(app);

@@ -106,10 +106,18 @@ OutsideEffect draw_outside(const OutsideInfo& info, const World& w, RandomStream
   return e;
 }
 
+// A reading is the newest one that is old enough: late by whole control periods.
+Effect as_it_acts(Effect effect, double period_s) {
+  constexpr double kRoundOff = 1e-6;
+  if (has(effect, "seconds"))
+    set(effect, "seconds", period_s * std::ceil(parameter_of(effect, "seconds") / period_s - kRoundOff));
+  return effect;
+}
+
 }  // namespace
 
 Faults DrawnFault::at(double amplitude) const {
-  if (of_catalogue) return {{effect.at(amplitude)}, {}};
+  if (of_catalogue) return {{as_it_acts(effect.at(amplitude), period_s)}, {}};
   OutsideEffect e = outside;
   e.values[e.info->parameter] = amplitude;
   return {{}, {e}};
@@ -118,6 +126,7 @@ Faults DrawnFault::at(double amplitude) const {
 DrawnFault draw_fault(const std::string& name, const World& world, RandomStream& random) {
   DrawnFault d;
   d.name = name;
+  d.period_s = 1 / world.driver.rate_hz;
   for (const OutsideInfo& info : outside_effects()) {
     if (info.name != name) continue;
     d.of_catalogue = false;

@@ -11,9 +11,10 @@ namespace umbsim::worlds {
 struct DrawnFault {
   std::string name;
   bool of_catalogue = true;
-  DrawnEffect effect;     ///< of the catalogue
-  OutsideEffect outside;  ///< or outside it
-  Range range;            ///< of the strength
+  DrawnEffect effect;      ///< of the catalogue
+  OutsideEffect outside;   ///< or outside it
+  Range range;             ///< of the strength
+  double period_s = 0.02;  ///< of the world's control
 
   Faults at(double amplitude) const;
 };

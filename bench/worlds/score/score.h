@@ -49,6 +49,7 @@ struct WorldFigures {
   Figure closed;          ///< closure of at least 0.7, where an effect shows
   Figure misled;          ///< closure below 0, where an effect shows
   Figure covered;         ///< 95 % intervals of right causes that hold the truth, one effect that shows
+  Figure calibration;     ///< stated probabilities of first causes against shares of right ones, mean by tenths
   Figure unknown_recall;  ///< unknown effects found where 5 % of the known ones are called so
   Figure unknown_area;    ///< area under that curve
   Figure wall_s;          ///< of a diagnosis, median

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "bench/worlds/score/score.h"
+#include "gap/trial/score/tallies.h"
 
 namespace umbsim::worlds {
 namespace {
@@ -122,6 +123,24 @@ Figure coverage(const Cases& cases) {
   return f;
 }
 
+// How far stated probabilities of first causes are from the shares of right ones, mean over the bins of their curve.
+Figure calibration_error(const Cases& cases) {
+  std::vector<Verdict> verdicts;
+  for (const WorldVerdict* v : cases) {
+    if (v->visible() && !v->verdict.failed) verdicts.push_back(v->verdict);
+  }
+  Figure f;
+  f.key = "calibration";
+  f.unit = "ratio";
+  f.cases = int(verdicts.size());
+  for (const CalibrationBin& bin : calibration_curve(verdicts)) {
+    const double off = bin.mean_probability * bin.cases - bin.right;
+    f.estimate.value += std::abs(off) / std::max(1, f.cases);
+  }
+  f.estimate.low = f.estimate.high = f.estimate.value;
+  return f;
+}
+
 }  // namespace
 
 bool WorldVerdict::all_named() const {
@@ -191,6 +210,7 @@ WorldFigures world_figures(const Cases& cases) {
   f.misled =
       share_of(cases, "misled", closable, [](const WorldVerdict& v) { return *v.verdict.diagnosis.closure < 0; });
   f.covered = coverage(cases);
+  f.calibration = calibration_error(cases);
   const Leanings l = leanings(cases);
   f.unknown_recall = recall(l);
   f.unknown_area = area(l);

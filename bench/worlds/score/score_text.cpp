@@ -28,6 +28,7 @@ constexpr Column kColumns[] = {
     {"closed", "closure >= 0.7", &WorldFigures::closed, true},
     {"misled", "closure below 0", &WorldFigures::misled, false},
     {"covered", "95 % intervals that hold the truth", &WorldFigures::covered, false},
+    {"calibration", "calibration error of stated probabilities", &WorldFigures::calibration, false},
     {"unknown_recall", "unknown found at 5 % known rejected", &WorldFigures::unknown_recall, false},
     {"unknown_area", "area under that curve", &WorldFigures::unknown_area, false},
     {"wall_s", "s a diagnosis", &WorldFigures::wall_s, true},
@@ -39,6 +40,7 @@ std::string cell(const Figure& f) {
   const Estimate& e = f.estimate;
   if (f.unit == "share")
     return fmt::format("{:.0f} % [{:.0f}, {:.0f}] of {}", 100 * e.value, 100 * e.low, 100 * e.high, f.cases);
+  if (e.low == e.high) return fmt::format("{:.2f}", e.value);
   return fmt::format("{:.2f} [{:.2f}, {:.2f}]", e.value, e.low, e.high);
 }
 
