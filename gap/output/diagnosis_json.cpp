@@ -9,6 +9,7 @@ namespace umbsim::gap {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
 Json parameter_json(const ParameterEstimate& e) {

@@ -14,7 +14,7 @@ struct NumberError {
 /// Of the sizes of an effect; of a name that is no effect's: as little as here.
 NumberError number_error_of(const std::string& effect);
 
-/// The same of where, in which direction and when an effect acts, of all effects alike.
+/// The same of where, in which direction and when an effect acts, of all effects alike: by hand, near what was found.
 constexpr double kPlaceElsewhere_m = 0.05;
 constexpr double kAngleElsewhere_rad = 0.05;
 constexpr double kMomentElsewhere_s = 0.03;

@@ -8,16 +8,12 @@
 
 #include "gap/hypotheses/hypothesis.h"
 #include "gap/traits/number_errors.h"
+#include "tests/gap/subject.h"
 
 namespace umbsim::gap {
 namespace {
 
-Hypothesis plain(const std::string& effect, const std::string& variant) {
-  for (const Hypothesis& h : plain_hypotheses(0.02, 2000)) {
-    if (h.effect == effect && h.variant == variant) return h;
-  }
-  throw std::logic_error("no hypothesis " + effect);
-}
+using testing::hypothesis_of;
 
 /// Without any noise, so that an interval is all that else may be off.
 ParameterEstimate estimate(const Hypothesis& hypothesis, const std::vector<double>& numbers,
@@ -39,7 +35,7 @@ constexpr double kHere = 0.03;  // standard deviation of a size by what a replay
 
 // The logarithm of a size is normal: as far from its estimate downwards as upwards, in factors.
 TEST(Intervals, HoldWhatEnginesDifferBy) {
-  const Hypothesis play = plain("backlash", "both");
+  const Hypothesis play = hypothesis_of("backlash", "both");
   const ParameterEstimate here = estimate(play, {0.007, 0.007}, "left_rad", false);
   const ParameterEstimate there = estimate(play, {0.007, 0.007}, "left_rad", true);
   const double log_sd = std::hypot(kHere, number_error_of("backlash").log);
@@ -54,7 +50,7 @@ TEST(Intervals, HoldWhatEnginesDifferBy) {
 
 // On either side of its neutral value: what is larger is further from there.
 TEST(Intervals, OfANegativeNumberAreItsMirrorImage) {
-  const Hypothesis toe = plain("wheel_misalignment", "left");
+  const Hypothesis toe = hypothesis_of("wheel_misalignment", "left");
   const ParameterEstimate left = estimate(toe, {0.01}, "left_toe_rad", true);
   const ParameterEstimate right = estimate(toe, {-0.01}, "left_toe_rad", true);
   EXPECT_NEAR(left.ci95[0], -right.ci95[1], 1e-15);
@@ -64,7 +60,7 @@ TEST(Intervals, OfANegativeNumberAreItsMirrorImage) {
 // What follows from rolling alone is the same in every engine.
 TEST(Intervals, OfRollingAreTheSameElsewhere) {
   for (const char* effect : {"wheelbase", "carpet_drift", "wear"}) EXPECT_EQ(number_error_of(effect).log, 0) << effect;
-  const Hypothesis wheelbase = plain("wheelbase", "relative");
+  const Hypothesis wheelbase = hypothesis_of("wheelbase", "relative");
   const ParameterEstimate here = estimate(wheelbase, {0.005}, "relative", false);
   const ParameterEstimate there = estimate(wheelbase, {0.005}, "relative", true);
   EXPECT_EQ(here.ci95[0], there.ci95[0]);
@@ -76,7 +72,7 @@ TEST(Intervals, OfADelayHoldATime) {
   const double time_s = number_error_of("encoder_latency").time_s;
   EXPECT_GT(time_s, 0.002);
   for (const double delay_s : {0.02, 0.2}) {
-    const ParameterEstimate e = estimate(plain("encoder_latency", "delay"), {delay_s}, "seconds", true);
+    const ParameterEstimate e = estimate(hypothesis_of("encoder_latency", "delay"), {delay_s}, "seconds", true);
     const double share_s = delay_s * std::expm1(1.96 * kHere);
     EXPECT_NEAR(e.ci95[1] - e.value, std::hypot(share_s, 1.96 * time_s), 1e-12);
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,6 +47,14 @@ inline gap::Fit fit_of(const gap::Model& model, const std::vector<std::string>& 
   }
   EXPECT_EQ(chosen.size(), effects.size());
   return model.fit(chosen);
+}
+
+/// A hypothesis by its effect and variant, as for 2000 ticks at 50 Hz. Throws logic_error if there is none.
+inline gap::Hypothesis hypothesis_of(const std::string& effect, const std::string& variant) {
+  for (const gap::Hypothesis& h : gap::plain_hypotheses(0.02, 2000)) {
+    if (h.effect == effect && h.variant == variant) return h;
+  }
+  throw std::logic_error("no hypothesis " + effect + ", " + variant);
 }
 
 }  // namespace umbsim::testing

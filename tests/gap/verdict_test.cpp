@@ -11,16 +11,12 @@
 #include "gap/answer/where.h"
 #include "gap/output/diagnosis_json.h"
 #include "gap/output/diagnosis_text.h"
+#include "tests/gap/subject.h"
 
 namespace umbsim::gap {
 namespace {
 
-Hypothesis hypothesis_of(const std::string& effect, const std::string& variant) {
-  for (const Hypothesis& f : plain_hypotheses(0.02, 2000)) {
-    if (f.effect == effect && f.variant == variant) return f;
-  }
-  throw std::logic_error("no hypothesis " + effect);
-}
+using testing::hypothesis_of;
 
 /// A cause whose numbers are known to `share` of themselves.
 Cause cause(const std::vector<Hypothesis>& hypotheses, const std::vector<double>& numbers, double share) {

@@ -31,7 +31,7 @@ TEST(WorldRun, ARobotDrivesWhereEveryRunEndsNearTheEndOfItsCourse) {
   EXPECT_FALSE(drives(w, stopped));
 }
 
-// A reading is the newest that is old enough: 5 ms and 40 ms late are both one period of 40 ms late. The answer says
+// A reading is the newest that is old enough: 20 and 40 ms late are both one period of 40 ms late, and the answer says
 // so.
 TEST(DrawnFault, CountsAreLateByWholePeriods) {
   World w = plain_world("ours");
