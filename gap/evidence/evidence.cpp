@@ -1,62 +1,95 @@
 #include "gap/evidence/evidence.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
 namespace umbsim::gap {
+namespace {
 
-Evidence evidence(const std::vector<RunGram>& grams, const std::vector<std::size_t>& runs,
-                  const std::vector<int>& columns, const Eigen::VectorXd& prior_sd, const Eigen::VectorXd& shift) {
-  const Eigen::Index m = Eigen::Index(columns.size());
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(m, m);
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(m);
+// Of all runs, at the expansion point: A = Z'Z, b = Z'y, y'y.
+struct Sums {
+  Eigen::MatrixXd A;
+  Eigen::VectorXd b;
   double yy = 0;
   double integrated = 0;
+};
+
+Sums sums_of(const std::vector<RunGram>& grams, const std::vector<std::size_t>& runs, const std::vector<int>& columns,
+             const Eigen::VectorXd& shift) {
+  const Eigen::Index m = Eigen::Index(columns.size());
+  Sums s{Eigen::MatrixXd::Zero(m, m), Eigen::VectorXd::Zero(m)};
   for (const std::size_t r : runs) {
     const Eigen::MatrixXd& G = grams[r].products;
-    yy += G(0, 0);
-    integrated += grams[r].log_det;
-    for (Eigen::Index i = 0; i < m; ++i) {
-      b[i] += G(0, columns[std::size_t(i)]);
-      for (Eigen::Index j = 0; j < m; ++j) A(i, j) += G(columns[std::size_t(i)], columns[std::size_t(j)]);
+    s.yy += G(0, 0);
+    s.integrated += grams[r].log_det;
+    for (Eigen::Index j = 0; j < m; ++j) {
+      const auto column = G.col(columns[std::size_t(j)]);
+      s.b[j] += column[0];
+      for (Eigen::Index i = 0; i < m; ++i) s.A(i, j) += column[columns[std::size_t(i)]];
     }
   }
   if (shift.size() == m) {
-    yy += 2 * b.dot(shift) + shift.dot(A * shift);
-    b += A * shift;
+    s.yy += 2 * s.b.dot(shift) + shift.dot(s.A * shift);
+    s.b += s.A * shift;
   }
-  // In units of the prior: M = I + S A S is well conditioned however weak a column is.
-  const Eigen::VectorXd& s = prior_sd;
-  Eigen::MatrixXd M = s.asDiagonal() * A * s.asDiagonal();
+  return s;
+}
+
+// In units of the prior: M = I + S A S is well conditioned however weak a column is.
+Eigen::MatrixXd in_units_of(const Eigen::VectorXd& prior_sd, const Eigen::MatrixXd& A) {
+  Eigen::MatrixXd M = prior_sd.asDiagonal() * A * prior_sd.asDiagonal();
   M.diagonal().array() += 1;
-  const Eigen::LLT<Eigen::MatrixXd> llt(M);
-  const Eigen::VectorXd scaled = llt.solve(s.cwiseProduct(b));
+  return M;
+}
+
+struct UnderPrior {
+  UnderPrior(const Sums& sums, const Eigen::VectorXd& prior_sd)
+      : llt(in_units_of(prior_sd, sums.A)),
+        mean(prior_sd.cwiseProduct(llt.solve(prior_sd.cwiseProduct(sums.b)))),
+        misfit(sums.yy - sums.b.dot(mean)),
+        log_density(-0.5 * sums.integrated - llt.matrixLLT().diagonal().array().log().sum() - 0.5 * misfit) {}
+
+  Eigen::LLT<Eigen::MatrixXd> llt;
+  Eigen::VectorXd mean;
+  double misfit;
+  double log_density;
+};
+
+Evidence in_full(const UnderPrior& u, const Sums& sums, const Eigen::VectorXd& sd) {
   Evidence e;
-  e.mean = s.cwiseProduct(scaled);
-  e.covariance = s.asDiagonal() * llt.solve(Eigen::MatrixXd::Identity(m, m)) * s.asDiagonal();
-  double log_det = 0;
-  for (Eigen::Index i = 0; i < m; ++i) log_det += 2 * std::log(llt.matrixLLT()(i, i));
-  e.log_density = -0.5 * (integrated + log_det + yy - b.dot(e.mean));
-  e.misfit = yy - b.dot(e.mean);
-  e.residual = yy - 2 * b.dot(e.mean) + e.mean.dot(A * e.mean);
+  e.log_density = u.log_density;
+  e.mean = u.mean;
+  e.covariance = sd.asDiagonal() * u.llt.solve(Eigen::MatrixXd::Identity(sd.size(), sd.size())) * sd.asDiagonal();
+  e.misfit = u.misfit;
+  e.residual = sums.yy - 2 * sums.b.dot(e.mean) + e.mean.dot(sums.A * e.mean);
   return e;
+}
+
+}  // namespace
+
+Evidence evidence(const std::vector<RunGram>& grams, const std::vector<std::size_t>& runs,
+                  const std::vector<int>& columns, const Eigen::VectorXd& prior_sd, const Eigen::VectorXd& shift) {
+  const Sums sums = sums_of(grams, runs, columns, shift);
+  return in_full(UnderPrior(sums, prior_sd), sums, prior_sd);
 }
 
 Evidence evidence(const std::vector<RunGram>& grams, const std::vector<std::size_t>& runs,
                   const std::vector<int>& columns, const std::vector<Eigen::VectorXd>& prior_sds,
                   const Eigen::VectorXd& shift) {
-  std::vector<Evidence> all;
-  for (const Eigen::VectorXd& sd : prior_sds) all.push_back(evidence(grams, runs, columns, sd, shift));
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < all.size(); ++i) {
-    if (all[i].log_density > all[best].log_density) best = i;
-  }
+  const Sums sums = sums_of(grams, runs, columns, shift);
+  std::vector<UnderPrior> under;
+  for (const Eigen::VectorXd& sd : prior_sds) under.emplace_back(sums, sd);
+  const auto best = std::max_element(under.begin(), under.end(), [](const UnderPrior& a, const UnderPrior& b) {
+    return a.log_density < b.log_density;
+  });
   double sum = 0;
-  for (const Evidence& e : all) sum += std::exp(e.log_density - all[best].log_density);
-  Evidence e = std::move(all[best]);
-  e.log_density += std::log(sum / double(prior_sds.size()));
-  e.prior = best;
+  for (const UnderPrior& u : under) sum += std::exp(u.log_density - best->log_density);
+  const std::size_t at = std::size_t(best - under.begin());
+  Evidence e = in_full(*best, sums, prior_sds[at]);
+  e.log_density += std::log(sum / double(under.size()));
+  e.prior = at;
   return e;
 }
 

@@ -7,6 +7,9 @@
 #include <cstdio>
 #include <random>
 
+#include "bench/worlds/draw/draw.h"
+#include "core/text/text_file.h"
+
 namespace umbsim::worlds {
 namespace {
 
@@ -73,6 +76,24 @@ TEST(CaseShares, AreTheSameAfterTheyWereWritten) {
   EXPECT_EQ(after.by_motion[1].pull, before.by_motion[1].pull);
   EXPECT_EQ(after.by_motion[1].precision, before.by_motion[1].precision);
   EXPECT_EQ(after.by_motion[1].log_density, before.by_motion[1].log_density);
+}
+
+// While another is being looked at: a push and motors that are asked for too much. Unequal radii only roll.
+TEST(CaseShares, OfARecordingThatADiagnosisRefusesAreLeftOut) {
+  const ScratchFolder scratch;
+  write_text_file(scratch.path() / "worlds.yaml",
+                  "format: umbsim-worlds/1\nname: learn\nseed: 10\nengines: [planar]\nruns: [plain_2]\n"
+                  "drivers: [own]\ntrackers: [mocap]\ncases_per_engine: {single: 3}\n");
+  const TrialFolder folder(scratch.path() / "worlds");
+  draw_worlds(read_worlds((scratch.path() / "worlds.yaml").string()), folder, {0, 1}, 2);
+  for (const auto& [name, answer] : read_answers(folder.answers())) {
+    if (answer.effects.count("push") > 0)
+      write_text_file(folder.recordings() / name / "recording.yaml", "format: umbsim-recording/1\n");
+  }
+  const SharesFound found = look_at_cases(folder, 2);
+  EXPECT_EQ(found.refused, 1);
+  ASSERT_EQ(found.cases.size(), 1u);
+  EXPECT_EQ(found.cases[0].effect, "over_acceleration");
 }
 
 }  // namespace

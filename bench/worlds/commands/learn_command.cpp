@@ -28,12 +28,15 @@ std::string row(const std::string& effect, const LearnedErrors& learned) {
 void learn(const LearnArguments& a) {
   std::vector<CaseShares> cases;
   std::map<std::string, int> engines;
+  int refused = 0;
   std::string table =
       "// Written by `umbsim_worlds learn` (docs/worlds.md), from folders whose answers have these hashes:\n";
   for (const std::string& folder : a.folders) {
     const TrialFolder worlds(folder);
     table += fmt::format("// {} {}\n", read_seal(worlds).value_or("not sealed"), folder);
-    for (CaseShares& c : look_at_cases(worlds, a.jobs)) {
+    SharesFound found = look_at_cases(worlds, a.jobs);
+    refused += found.refused;
+    for (CaseShares& c : found.cases) {
       if (std::count(a.without.begin(), a.without.end(), c.engine) > 0) continue;
       ++engines[c.engine];
       cases.push_back(std::move(c));
@@ -47,6 +50,7 @@ void learn(const LearnArguments& a) {
   } else {
     write_file_whole(a.out, table);
   }
+  if (refused > 0) fmt::print(stderr, "{} recordings that a diagnosis refuses are left out\n", refused);
 }
 
 }  // namespace

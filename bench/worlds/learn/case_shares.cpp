@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include <atomic>
 #include <set>
 
 #include "cli/gap/gap_recordings.h"
@@ -107,7 +108,7 @@ CaseShares read_shares(const Json& json) {
   return shares;
 }
 
-std::vector<CaseShares> look_at_cases(const TrialFolder& folder, int jobs) {
+SharesFound look_at_cases(const TrialFolder& folder, int jobs) {
   std::optional<tbb::global_control> limit;
   if (jobs > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(jobs));
   const std::vector<Known> known = known_cases(folder);
@@ -115,19 +116,27 @@ std::vector<CaseShares> look_at_cases(const TrialFolder& folder, int jobs) {
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (!fs::exists(shares_file(folder, known[i].name))) open.push_back(i);
   }
+  std::atomic<int> refused = 0;
   Progress progress("looking at signatures", int(open.size()));
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, open.size(), 1),
       [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           const Known& c = known[open[i]];
-          write_file_whole(shares_file(folder, c.name), shares_json(look_at_case(folder, c)).dump());
+          try {
+            write_file_whole(shares_file(folder, c.name), shares_json(look_at_case(folder, c)).dump());
+          } catch (const InputError&) {
+            ++refused;
+          }
           progress.step();
         }
       },
       tbb::simple_partitioner());
-  std::vector<CaseShares> all;
-  for (const Known& c : known) all.push_back(read_shares(read_json(shares_file(folder, c.name))));
+  SharesFound all{{}, refused};
+  for (const Known& c : known) {
+    const fs::path file = shares_file(folder, c.name);
+    if (fs::exists(file)) all.cases.push_back(read_shares(read_json(file)));
+  }
   return all;
 }
 

@@ -23,9 +23,15 @@ struct CaseShares {
 Json shares_json(const CaseShares& shares);
 CaseShares read_shares(const Json& json);
 
+struct SharesFound {
+  std::vector<CaseShares> cases;
+  int refused = 0;  ///< recordings that a diagnosis refuses
+};
+
 /// Fits the effect of every case that has a single one of the catalogue, alone, and looks at the pieces of its
 /// signature; keeps what it finds under shares/ of the folder, and does what is not done yet. Left out is what follows
-/// from rolling alone. `jobs`: cases at the same time; 0: one per core. Throws InputError, RunError.
-std::vector<CaseShares> look_at_cases(const TrialFolder& folder, int jobs);
+/// from rolling alone. `jobs`: cases at the same time; 0: one per core. Throws InputError where
+/// answers do not name the worlds, RunError.
+SharesFound look_at_cases(const TrialFolder& folder, int jobs);
 
 }  // namespace umbsim::worlds

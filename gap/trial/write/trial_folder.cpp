@@ -88,7 +88,7 @@ void write_whole(const fs::path& folder, const std::function<void(const fs::path
 
 void write_file_whole(const fs::path& file, const std::string& text) {
   const fs::path part = beside(file);
-  fs::create_directories(file.parent_path());
+  if (file.has_parent_path()) fs::create_directories(file.parent_path());
   write_text_file(part, text);
   fs::rename(part, file);
 }

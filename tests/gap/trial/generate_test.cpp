@@ -215,5 +215,14 @@ TEST(Shards, AreParsedStrictly) {
   }
 }
 
+TEST(WriteFileWhole, TakesANameWithoutAFolder) {
+  const Folder folder;
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path);
+  EXPECT_NO_THROW(write_file_whole("table.txt", "effects\n"));
+  fs::current_path(before);
+  EXPECT_EQ(text_of(folder.path / "table.txt"), "effects\n");
+}
+
 }  // namespace
 }  // namespace umbsim::trial_testing
