@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "core/first_failure.h"
 #include "core/progress.h"
 #include "effects/silent.h"
-#include "experiment/first_failure.h"
 #include "experiment/scenario/recorded_course.h"
 #include "recording/names.h"
 

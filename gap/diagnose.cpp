@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "core/probability.h"
 #include "gap/answer/answer_set.h"
 #include "gap/answer/closure.h"
 #include "gap/answer/effective_twin.h"
 #include "gap/answer/explanation.h"
 #include "gap/answer/ranking.h"
 #include "gap/answer/where.h"
-#include "gap/evidence/evidence.h"
 #include "gap/evidence/track_misfit.h"
 
 namespace umbsim::gap {

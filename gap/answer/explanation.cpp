@@ -7,12 +7,12 @@
 #include <optional>
 #include <utility>
 
+#include "core/probability.h"
 #include "effects/words.h"
 #include "gap/answer/closure.h"
 #include "gap/answer/not_fitted.h"
 #include "gap/answer/twin.h"
 #include "gap/answer/where.h"
-#include "gap/evidence/evidence.h"
 #include "gap/evidence/track_misfit.h"
 #include "gap/evidence/uneven_floor.h"
 

@@ -2,18 +2,17 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
 namespace umbsim::gap {
 namespace {
 
-// Of all runs, at the expansion point: A = Z'Z, b = Z'y, y'y.
+// Over all runs, at the expansion point.
 struct Sums {
-  Eigen::MatrixXd A;
-  Eigen::VectorXd b;
+  Eigen::MatrixXd ZZ;
+  Eigen::VectorXd Zy;
   double yy = 0;
-  double integrated = 0;
+  double log_det = 0;
 };
 
 Sums sums_of(const std::vector<RunGram>& grams, const std::vector<std::size_t>& runs, const std::vector<int>& columns,
@@ -23,33 +22,30 @@ Sums sums_of(const std::vector<RunGram>& grams, const std::vector<std::size_t>& 
   for (const std::size_t r : runs) {
     const Eigen::MatrixXd& G = grams[r].products;
     s.yy += G(0, 0);
-    s.integrated += grams[r].log_det;
-    for (Eigen::Index j = 0; j < m; ++j) {
-      const auto column = G.col(columns[std::size_t(j)]);
-      s.b[j] += column[0];
-      for (Eigen::Index i = 0; i < m; ++i) s.A(i, j) += column[columns[std::size_t(i)]];
-    }
+    s.log_det += grams[r].log_det;
+    s.Zy += G(columns, 0);
+    s.ZZ += G(columns, columns);
   }
   if (shift.size() == m) {
-    s.yy += 2 * s.b.dot(shift) + shift.dot(s.A * shift);
-    s.b += s.A * shift;
+    s.yy += 2 * s.Zy.dot(shift) + shift.dot(s.ZZ * shift);
+    s.Zy += s.ZZ * shift;
   }
   return s;
 }
 
-// In units of the prior: M = I + S A S is well conditioned however weak a column is.
-Eigen::MatrixXd in_units_of(const Eigen::VectorXd& prior_sd, const Eigen::MatrixXd& A) {
-  Eigen::MatrixXd M = prior_sd.asDiagonal() * A * prior_sd.asDiagonal();
+// In units of the prior: M = I + S Z'Z S is well conditioned however weak a column is.
+Eigen::LLT<Eigen::MatrixXd> in_units_of(const Eigen::VectorXd& prior_sd, const Eigen::MatrixXd& ZZ) {
+  Eigen::MatrixXd M = prior_sd.asDiagonal() * ZZ * prior_sd.asDiagonal();
   M.diagonal().array() += 1;
-  return M;
+  return Eigen::LLT<Eigen::MatrixXd>(M);
 }
 
 struct UnderPrior {
-  UnderPrior(const Sums& sums, const Eigen::VectorXd& prior_sd)
-      : llt(in_units_of(prior_sd, sums.A)),
-        mean(prior_sd.cwiseProduct(llt.solve(prior_sd.cwiseProduct(sums.b)))),
-        misfit(sums.yy - sums.b.dot(mean)),
-        log_density(-0.5 * sums.integrated - llt.matrixLLT().diagonal().array().log().sum() - 0.5 * misfit) {}
+  UnderPrior(const Sums& sums, const Eigen::VectorXd& sd)
+      : llt(in_units_of(sd, sums.ZZ)),
+        mean(sd.cwiseProduct(llt.solve(sd.cwiseProduct(sums.Zy)))),
+        misfit(sums.yy - sums.Zy.dot(mean)),
+        log_density(-0.5 * (sums.log_det + misfit) - llt.matrixLLT().diagonal().array().log().sum()) {}
 
   Eigen::LLT<Eigen::MatrixXd> llt;
   Eigen::VectorXd mean;
@@ -57,22 +53,11 @@ struct UnderPrior {
   double log_density;
 };
 
-Evidence in_full(const UnderPrior& u, const Sums& sums, const Eigen::VectorXd& sd) {
-  Evidence e;
-  e.log_density = u.log_density;
-  e.mean = u.mean;
-  e.covariance = sd.asDiagonal() * u.llt.solve(Eigen::MatrixXd::Identity(sd.size(), sd.size())) * sd.asDiagonal();
-  e.misfit = u.misfit;
-  e.residual = sums.yy - 2 * sums.b.dot(e.mean) + e.mean.dot(sums.A * e.mean);
-  return e;
-}
-
 }  // namespace
 
 Evidence evidence(const std::vector<RunGram>& grams, const std::vector<std::size_t>& runs,
                   const std::vector<int>& columns, const Eigen::VectorXd& prior_sd, const Eigen::VectorXd& shift) {
-  const Sums sums = sums_of(grams, runs, columns, shift);
-  return in_full(UnderPrior(sums, prior_sd), sums, prior_sd);
+  return evidence(grams, runs, columns, std::vector<Eigen::VectorXd>{prior_sd}, shift);
 }
 
 Evidence evidence(const std::vector<RunGram>& grams, const std::vector<std::size_t>& runs,
@@ -86,10 +71,14 @@ Evidence evidence(const std::vector<RunGram>& grams, const std::vector<std::size
   });
   double sum = 0;
   for (const UnderPrior& u : under) sum += std::exp(u.log_density - best->log_density);
-  const std::size_t at = std::size_t(best - under.begin());
-  Evidence e = in_full(*best, sums, prior_sds[at]);
-  e.log_density += std::log(sum / double(under.size()));
-  e.prior = at;
+  Evidence e;
+  e.prior = std::size_t(best - under.begin());
+  e.log_density = best->log_density + std::log(sum / double(under.size()));
+  e.mean = best->mean;
+  const auto S = prior_sds[e.prior].asDiagonal();
+  e.covariance = S * best->llt.solve(Eigen::MatrixXd::Identity(e.mean.size(), e.mean.size())) * S;
+  e.misfit = best->misfit;
+  e.residual = sums.yy - 2 * sums.Zy.dot(e.mean) + e.mean.dot(sums.ZZ * e.mean);
   return e;
 }
 
@@ -125,17 +114,6 @@ RunGram integrated_out(const Eigen::MatrixXd& products, int first, const Eigen::
   gram.products -= cross.transpose() * llt.solve(cross);
   for (Eigen::Index i = 0; i < k; ++i) gram.log_det += 2 * std::log(llt.matrixLLT()(i, i));
   return gram;
-}
-
-double chi_squared_tail(double chi_squared, double degrees_of_freedom) {
-  if (!(chi_squared > 0)) return 1;
-  return boost::math::cdf(
-      boost::math::complement(boost::math::chi_squared_distribution<double>(degrees_of_freedom), chi_squared));
-}
-
-double log_normal_cdf(double x) {
-  if (x > -6) return std::log(0.5 * std::erfc(-x / M_SQRT2));
-  return -0.5 * x * x - std::log(-x * std::sqrt(2 * M_PI));
 }
 
 }  // namespace umbsim::gap

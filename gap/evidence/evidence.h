@@ -45,10 +45,4 @@ std::vector<Eigen::VectorXd> with_more(std::vector<Eigen::VectorXd> prior_sds, c
 /// Integrates the columns from `first` on out of the products, with a prior standard deviation for each.
 RunGram integrated_out(const Eigen::MatrixXd& products, int first, const Eigen::VectorXd& prior_sd);
 
-/// Probability of a larger chi-squared.
-double chi_squared_tail(double chi_squared, double degrees_of_freedom);
-
-/// log of the standard normal's distribution function, also far below zero.
-double log_normal_cdf(double x);
-
 }  // namespace umbsim::gap

@@ -10,6 +10,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "core/probability.h"
 #include "gap/evidence/model.h"
 #include "gap/noise/lost_by_chance.h"
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/probability.h"
 #include "core/random.h"
 #include "gap/answer/unknown.h"
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "core/probability.h"
 #include "gap/search/drivable.h"
 #include "gap/search/local_search.h"
 #include "gap/search/search.h"

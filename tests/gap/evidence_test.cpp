@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "core/probability.h"
 #include "core/random.h"
 
 namespace umbsim::gap {

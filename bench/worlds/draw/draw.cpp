@@ -8,6 +8,7 @@
 #include <chrono>
 
 #include "core/error.h"
+#include "core/first_failure.h"
 #include "core/progress.h"
 #include "core/text/text_file.h"
 #include "gap/trial/write/even_tables.h"
@@ -75,18 +76,22 @@ DrawResult draw_all(const DrawSource& source, const TrialFolder& folder, Shard s
   }
   Progress progress("drawing worlds", int(open.size()));
   std::atomic<int> worlds{0}, faults{0};
+  FirstFailure failure;
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, open.size(), 1),
       [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          const DrawnCase drawn = source.draw(open[i]);
-          write_case(folder, cases[open[i]], drawn);
-          worlds += drawn.worlds_redrawn;
-          faults += drawn.faults_redrawn;
-          progress.step();
+          failure.attempt(i, [&] {
+            const DrawnCase drawn = source.draw(open[i]);
+            write_case(folder, cases[open[i]], drawn);
+            worlds += drawn.worlds_redrawn;
+            faults += drawn.faults_redrawn;
+            progress.step();
+          });
         }
       },
       tbb::simple_partitioner());
+  failure.rethrow();
   DrawResult result;
   result.root = folder.root;
   result.cases = cases.size();

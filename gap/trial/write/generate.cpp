@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "core/first_failure.h"
 #include "core/progress.h"
 #include "core/text/text_file.h"
 #include "gap/trial/write/even_tables.h"
@@ -42,13 +43,17 @@ class Scales {
     }
     std::vector<Key> keys;
     for (const auto& [k, scale] : scales_) keys.push_back(k);
+    FirstFailure failure;
     tbb::parallel_for(std::size_t(0), keys.size(), [&](std::size_t i) {
-      TrialCase standard;
-      standard.tier = keys[i].second;
-      const Platform platform = draw_platform(plan_, keys[i].first);
-      scales_.at(keys[i]) =
-          std::make_unique<SeverityScale>(plan_, platform, planned_for(plan_, standard, platform), simulator_);
+      failure.attempt(i, [&] {
+        TrialCase standard;
+        standard.tier = keys[i].second;
+        const Platform platform = draw_platform(plan_, keys[i].first);
+        scales_.at(keys[i]) =
+            std::make_unique<SeverityScale>(plan_, platform, planned_for(plan_, standard, platform), simulator_);
+      });
     });
+    failure.rethrow();
   }
   const SeverityScale& of(const TrialCase& c) const { return *scales_.at(key(c)); }
 
@@ -164,11 +169,15 @@ GenerateResult generate_trial(const TrialPlan& plan, const TrialFolder& folder, 
   Scales scales(plan, simulator);
   scales.prepare(open);
   Progress progress("driving cases", int(open.size()));
+  FirstFailure failure;
   tbb::parallel_for(std::size_t(0), open.size(), [&](std::size_t i) {
-    const Platform platform = draw_platform(plan, open[i]->platform);
-    write_case(folder, *open[i], drive_case(plan, *open[i], platform, scales, simulator));
-    progress.step();
+    failure.attempt(i, [&] {
+      const Platform platform = draw_platform(plan, open[i]->platform);
+      write_case(folder, *open[i], drive_case(plan, *open[i], platform, scales, simulator));
+      progress.step();
+    });
   });
+  failure.rethrow();
   GenerateResult result;
   result.cases = cases.size();
   for (const TrialCase& c : cases) result.finished += std::size_t(fs::exists(folder.recordings() / c.name));

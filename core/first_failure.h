@@ -9,7 +9,8 @@
 namespace umbsim {
 
 /// Of pieces of work that are done in parallel the first one, by number, that fails: the same one however many threads
-/// there are. Pieces behind one that has failed are left out.
+/// there are. Pieces behind one that has failed are left out; those that have begun are finished. Thrown out of a
+/// parallel loop instead, it would cancel the loops within them, which then leave their work half done and say nothing.
 class FirstFailure {
  public:
   template <class Work>
