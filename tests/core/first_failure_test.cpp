@@ -7,7 +7,6 @@
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
-#include <string>
 #include <thread>
 
 namespace umbsim {

@@ -78,7 +78,7 @@ TEST(CaseShares, AreTheSameAfterTheyWereWritten) {
   EXPECT_EQ(after.by_motion[1].log_density, before.by_motion[1].log_density);
 }
 
-// While another is being looked at: a push and motors that are asked for too much. Unequal radii only roll.
+// A push, while motors that are asked for too much are being looked at. The third case, a wrong radius, only rolls.
 TEST(CaseShares, OfARecordingThatADiagnosisRefusesAreLeftOut) {
   const ScratchFolder scratch;
   write_text_file(scratch.path() / "worlds.yaml",

@@ -9,6 +9,7 @@
 
 #include "cli/gap/gap_recordings.h"
 #include "core/error.h"
+#include "core/first_failure.h"
 #include "core/progress.h"
 #include "effects/catalogue.h"
 #include "gap/search/search.h"
@@ -117,21 +118,25 @@ SharesFound look_at_cases(const TrialFolder& folder, int jobs) {
     if (!fs::exists(shares_file(folder, known[i].name))) open.push_back(i);
   }
   std::atomic<int> refused = 0;
+  FirstFailure failure;
   Progress progress("looking at signatures", int(open.size()));
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, open.size(), 1),
       [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           const Known& c = known[open[i]];
-          try {
-            write_file_whole(shares_file(folder, c.name), shares_json(look_at_case(folder, c)).dump());
-          } catch (const InputError&) {
-            ++refused;
-          }
-          progress.step();
+          failure.attempt(i, [&] {
+            try {
+              write_file_whole(shares_file(folder, c.name), shares_json(look_at_case(folder, c)).dump());
+            } catch (const InputError&) {
+              ++refused;
+            }
+            progress.step();
+          });
         }
       },
       tbb::simple_partitioner());
+  failure.rethrow();
   SharesFound all{{}, refused};
   for (const Known& c : known) {
     const fs::path file = shares_file(folder, c.name);

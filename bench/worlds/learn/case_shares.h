@@ -30,8 +30,8 @@ struct SharesFound {
 
 /// Fits the effect of every case that has a single one of the catalogue, alone, and looks at the pieces of its
 /// signature; keeps what it finds under shares/ of the folder, and does what is not done yet. Left out is what follows
-/// from rolling alone. `jobs`: cases at the same time; 0: one per core. Throws InputError where
-/// answers do not name the worlds, RunError.
+/// from rolling alone. `jobs`: cases at the same time; 0: one per core. Throws InputError where answers do not name the
+/// worlds, RunError.
 SharesFound look_at_cases(const TrialFolder& folder, int jobs);
 
 }  // namespace umbsim::worlds
