@@ -12,6 +12,7 @@ constexpr std::size_t kFirstCounts = 30;  // that the coarse look takes in
 constexpr std::size_t kCandidates = 200;  // narrow steps that are followed from one look to the next
 constexpr double kNarrowest = 1.05;
 constexpr double kNarrow = 4.2;  // up to here counts tell by those that never come
+constexpr double kUnseen_m = 1e-5;  // a rim's way by which no odometry is judged: narrow steps that move it less are none
 constexpr double kSmallest = 4;  // change of counts from which on these tell by where they lie
 constexpr double kFewest = 6;    // counts of a step that rounding does not hide where no two readings are one apart
 constexpr double kCoherent = 0.8;
@@ -168,6 +169,10 @@ double narrow_step(const std::vector<double>& counts) {
   return most_coherent(counts, likeliest, off, 100, counts.back());
 }
 
+double rim_m_per_count(const RecordedRobot& robot) {
+  return 2 * M_PI * robot.wheel_radius_m / robot.ticks_per_revolution;
+}
+
 }  // namespace
 
 double count_step(const Recording& recording) {
@@ -177,7 +182,7 @@ double count_step(const Recording& recording) {
   for (auto c = counts.rbegin(); c != counts.rend(); ++c) *c -= counts.front();
   const double smallest = smallest_step(recording);
   if (smallest > 1e6) return 1;
-  if (smallest < kSmallest) return narrow_step(counts);
+  if (smallest < kSmallest) return kNarrow * rim_m_per_count(recording.robot) < kUnseen_m ? 1 : narrow_step(counts);
   return wide_step(counts, turned(recording.runs.front()), smallest);
 }
 

@@ -11,6 +11,7 @@
 #include "calibration/intake/parts.h"
 #include "calibration/intake/refusal.h"
 #include "calibration/intake/samples.h"
+#include "calibration/intake/thinned.h"
 #include "calibration/intake/units.h"
 #include "calibration/intake/unwrap.h"
 
@@ -21,6 +22,10 @@ constexpr double kUncovered = 0.1;    // of a run's counts, which the truth may 
 constexpr double kFarFromHome = 0.1;  // of a square's way, by which a run may miss its start without a word
 constexpr double kOtherClock = 1.5;   // durations that differ so much over one way are in other units
 constexpr double kSameWay = 0.3;      // log of how far ways may differ that are thought to be one
+
+// Readings of the encoders per second that are used. What robots do is slower than a few hertz, and a driver that
+// replays commands every 10 ms misses none of it: more readings tell nothing more, and take memory and time.
+constexpr double kCounts_hz = 100;
 
 // How much of what the wheels turn lies after the truth's end or before its start.
 double uncovered(const RecordedRun& run) {
@@ -140,7 +145,7 @@ Intake take_in(const std::string& directory) {
   Recording recording = read_recording(directory);
   std::vector<std::string> limits = unwrap_counters(recording);
   for (std::string& limit : check_recording(recording, directory)) limits.push_back(std::move(limit));
-  return {std::move(recording), std::move(limits)};
+  return {thinned_counts(std::move(recording), kCounts_hz), std::move(limits)};
 }
 
 }  // namespace umbsim::intake

@@ -19,8 +19,8 @@ struct Intake {
   std::vector<std::string> limits;
 };
 
-/// Reads, unwraps counters that wrap at 16 or 32 bits, and checks: the one way by which a recording comes to calibration
-/// and to diagnosis. Throws InputError.
+/// Reads, unwraps counters that wrap at 16 or 32 bits, checks, and keeps at most 100 readings of the encoders a second:
+/// the one way by which a recording comes to calibration and to diagnosis. Throws InputError.
 Intake take_in(const std::string& directory);
 
 }  // namespace umbsim::intake

@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "calibration/intake/intake.h"
+#include "calibration/intake/thinned.h"
 #include "cli/gap/gap_simulator.h"
 #include "cli/shipped.h"
 #include "core/error.h"
 #include "experiment/output/result_folder.h"
 #include "gap/noise/clock.h"
 #include "gap/replay/remembered.h"
-#include "gap/replay/thinned.h"
 
 namespace umbsim {
 namespace {
@@ -42,7 +42,7 @@ GapRecordings::GapRecordings(const std::vector<std::string>& folders, const std:
   std::vector<Recording> recordings;
   for (std::size_t i = 0; i < folders.size(); ++i) {
     auto [given, limits] = intake::take_in(folders[i]);
-    recordings.push_back(gap::thinned(gap::followed_through(given, limits), kTrack_hz));
+    recordings.push_back(intake::thinned_truth(gap::followed_through(given, limits), kTrack_hz));
     for (std::string& limit : limits)
       limits_.push_back(folders.size() > 1 ? names[i] + ": " + limit : std::move(limit));
   }

@@ -34,6 +34,15 @@ GivesWay tyres() {
           }};
 }
 
+GivesWay soft_tyres() {
+  constexpr double kTypical_m_per_n = 5e-7;
+  return {"tyres that give", {"log tyre_compliance", 0, 0.2, 1.5, -2, 4}, [](double times) {
+            Effect compliance = neutral_effect(find_effect("tyre_compliance"));
+            compliance.values.numbers[index_of(*compliance.info, "metres_per_newton")] = kTypical_m_per_n * times;
+            return compliance;
+          }};
+}
+
 namespace {
 
 // The likeliest logarithm t of how many times as much as is typical gives way, where the product is `standard_pulls`

@@ -7,7 +7,7 @@
 
 namespace umbsim::gap {
 
-/// Something that gives way under a pull, so that the pull is felt. How much is fitted, about what is typical.
+/// Something that gives way under a pull or a load, so that it is felt. How much is fitted, about what is typical.
 struct GivesWay {
   std::string what;         ///< for the hypothesis' name
   FreeParameter log_times;  ///< logarithm of how many times what is typical
@@ -21,7 +21,10 @@ GivesWay motors(double inertia_kgm2);
 /// Tyres creep in proportion to the pull and to the way that they roll. Poses tell.
 GivesWay tyres();
 
-/// An effect that does nothing but pull, felt through what gives way. What is seen is pull times how much gives way, in
+/// Tyres give way under the wheels' load: a loaded wheel rolls on a smaller radius. Poses tell.
+GivesWay soft_tyres();
+
+/// An effect that does nothing but pull or load, felt through what gives way. What is seen is pull times how much gives way, in
 /// which it is linear, and hardly either of them: so the numbers of `pull`, which it acts in proportion to, are those
 /// that it would have if what gives way were typical. A fit begins where pull and give are as likely as they may be
 /// with the product that derivatives foretell.

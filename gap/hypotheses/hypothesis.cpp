@@ -236,6 +236,7 @@ std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revol
       direct("encoder_missed_counts", "speed", {positive("probability_per_radps", 3e-4, 1e-3)}),
       direct("encoder_latency", "delay", {positive("seconds", 0.02, 0.1)}),
       load(),
+      felt_through(soft_tyres(), load()),
       direct("tyre_compliance", "both", {positive("metres_per_newton", 5e-7, 3e-6)}),
       costing(kNarrowContact, squared("contact_patch", "width_m", 0.01, 0.03, wheel_width_m)),
       direct("tyre_creep", "along and across", {{"along", 0, 5e-3, 0.02, 0, 0.1}, {"across", 0, 5e-3, 0.02, 0, 0.1}}),

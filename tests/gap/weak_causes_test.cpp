@@ -198,6 +198,17 @@ TEST(WeakCause, ADragBesideTheMiddleOnTyresThatCreep) {
   EXPECT_TRUE(holds(estimate(d, "left_m"), left_m));
 }
 
+// A payload beside the middle rolls its wheel on a smaller radius, as far as the tyres give way: the runs tell load and
+// softness together, and which side is loaded.
+TEST(WeakCause, APayloadOnTyresThatNobodyKnows) {
+  const Subject p(campaign({effect("load_shift", {{"payload_kg", 3}, {"ahead_m", 0.02}, {"left_m", 0.1}}),
+                            effect("tyre_compliance", {{"metres_per_newton", 2e-6}})},
+                           98));
+  const Diagnosis d = p.diagnosed();
+  ASSERT_EQ(d.causes.front().name, "load_shift");
+  EXPECT_GT(estimate(d, "left_m").value, 0);
+}
+
 // Casters have friction, and few servos are stiff: that much is no effect.
 TEST(WeakCause, AnOrdinaryCasterOnMotorsThatGiveWay) {
   const Subject p(campaign(

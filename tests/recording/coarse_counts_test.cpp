@@ -11,6 +11,7 @@ namespace {
 /// A wheel that rolls on, rests and rolls back a little, unevenly, read through steps of `width` counts.
 Recording driven(double width, double start = 0) {
   Recording recording;
+  recording.robot = {"", 0.06, 0.3, 1000};
   RecordedRun run;
   double angle = start;
   for (int i = 0; i < 3000; ++i) {
@@ -24,6 +25,13 @@ Recording driven(double width, double start = 0) {
 }
 
 TEST(CoarseCounts, FineCountsAreFine) { EXPECT_EQ(count_step(driven(1)), 1); }
+
+// Three counts of a million a turn move the rim by 1 um.
+TEST(CoarseCounts, StepsThatNobodySeesAreNone) {
+  Recording recording = driven(3.1);
+  recording.robot.ticks_per_revolution = 1e6;
+  EXPECT_EQ(count_step(recording), 1);
+}
 
 TEST(CoarseCounts, TooFewCountsSayNothing) {
   Recording recording = driven(7.3);
