@@ -91,8 +91,9 @@ bool may_scrub(const Fit& twin, const std::set<std::string>& excluded) {
 
 void add_scrub(const Model& model, EffectiveTwin& twin) {
   const Hypothesis scrub = scrub_hypothesis();
-  Fit fit = with(model, twin.fit, scrub, Eigen::VectorXd::Constant(1, scrub.parameters.front().step));
-  const Closure closure = held_out_closure(model, fit);
+  const Model alike = model.with_turns_alike();
+  Fit fit = with(alike, twin.fit, scrub, Eigen::VectorXd::Constant(1, scrub.parameters.front().step));
+  const Closure closure = held_out_closure(alike, fit);
   if (!closure.known || closure.after_mm >= twin.closure.after_mm) return;
   twin.dimensions.push_back(scrub.effect);
   twin.fit = std::move(fit);

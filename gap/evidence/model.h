@@ -119,6 +119,9 @@ class Model {
   void take_for_another_engines();
   /// This model, were engines to differ by little.
   Model with_little_differences() const;
+  /// This model, were turns of each recording as large as effects make them: a twin is to foretell all kinds of driving
+  /// itself, where a diagnosis allows for tyres that scrub in each otherwise (Scatter::turns_between).
+  Model with_turns_alike() const;
   double noise_floor_m() const { return noise_floor_m_; }
   bool replicated() const { return replicated_; }
   const std::vector<Stretch>& stretches(std::size_t run) const { return stretches_[run]; }

@@ -183,6 +183,12 @@ Model Model::with_little_differences() const {
   return little;
 }
 
+Model Model::with_turns_alike() const {
+  Model alike = *this;
+  for (Eigen::VectorXd& sd : alike.nuisances_.shared_sds) sd(nuisances_.turns).setConstant(scatter_.turn_scale);
+  return alike;
+}
+
 void Model::take_for_another_engines() {
   nuisances_.shared_sds.resize(nuisances_.wide);
   nuisances_.of_another = nuisances_.wide;

@@ -68,16 +68,21 @@ Eigen::Vector3d error_at(const Eigen::VectorXd& error, const std::vector<double>
   return error.segment<3>(3 * j) + on / double(to - from) * (error.segment<3>(3 * to) - error.segment<3>(3 * from));
 }
 
+// Linear in what the robot does otherwise, however far the tracks part. `usual`: noise, of which only counts how well
+// headings are seen.
+Eigen::VectorXd error_of(const NominalReplay& n, std::size_t run, const NoiseModel& usual) {
+  return TrackFilter(n.tracks[run], n.rolled_m[run], usual).error(n.tracks[run], n.truth[run]);
+}
+
 // Each run once as the first of a pair, in samples that are at least so long apart. Runs that repeat each other come to
 // a place at different times: they are compared where they are, lest what the scenario errs by looks like noise.
-std::vector<Difference> differences(const NominalReplay& n, double apart_s) {
+std::vector<Difference> differences(const NominalReplay& n, const NoiseModel& usual, double apart_s) {
   std::vector<Difference> result;
   const bool ends = n.recording->truth_kind == "endpoints";
   for (std::size_t a = 0; a < n.runs(); ++a) {
     for (std::size_t b = a + 1; b < n.runs(); ++b) {
       if (!n.same_condition(a, b) || !alike(n.tracks[a], n.tracks[b])) continue;
-      const Eigen::VectorXd first = track_error(n.tracks[a], n.truth[a]);
-      const Eigen::VectorXd second = track_error(n.tracks[b], n.truth[b]);
+      const Eigen::VectorXd first = error_of(n, a, usual), second = error_of(n, b, usual);
       const auto& times = n.recording->runs[a].truth;
       Difference d{Eigen::VectorXd(first.size()), {}, {}, {}};
       const std::vector<double> way = progress_m(n, a), other_way = progress_m(n, b);
@@ -133,10 +138,6 @@ double log_prior(const NoiseModel& noise, const NoiseModel& usual) {
   return -0.5 * square;
 }
 
-// Of a tracker that sees no heading (a total station) the column may hold anything, such as what the counts add up to:
-// runs that repeat so well say nothing of its noise.
-constexpr double kUnseen_rad = 1;
-
 // The likelihood's maximum over the noise model, by a coordinate search on logarithms: a handful of numbers. It looks
 // far at first, for beside a good fit stands one that takes most innovations for outliers.
 template <class Likelihood>
@@ -147,7 +148,7 @@ NoiseModel most_likely(NoiseModel best, const Likelihood& log_likelihood) {
   for (double factor = 64; factor > 1.02; factor = std::sqrt(factor)) {
     for (int sweep = 0; sweep < 2; ++sweep) {
       for (const auto member : members) {
-        if (member == &NoiseModel::heading_sd_rad && best.heading_sd_rad > kUnseen_rad) continue;
+        if (member == &NoiseModel::heading_sd_rad && !best.sees_headings()) continue;
         for (const double f : {factor, 1 / factor}) {
           for (int step = 0; step < 6; ++step) {
             NoiseModel trial = best;
@@ -180,7 +181,8 @@ Eigen::MatrixXd geometry_columns(const NominalReplay& n, std::size_t run, const 
 }
 
 // Fitting and estimating in turn.
-NoiseModel from_what_is_left(const NominalReplay& n, NoiseModel noise) {
+NoiseModel from_what_is_left(const NominalReplay& n, const NoiseModel& usual) {
+  NoiseModel noise = usual;
   const auto filter_of = [&](std::size_t r, const NoiseModel& model) {
     return TrackFilter(n.tracks[r], n.rolled_m[r], model, n.seen[r], n.velocity[r]);
   };
@@ -191,7 +193,7 @@ NoiseModel from_what_is_left(const NominalReplay& n, NoiseModel noise) {
     std::vector<Eigen::MatrixXd> columns(n.runs());
     for (std::size_t r = 0; r < n.runs(); ++r) {
       const TrackFilter filter = filter_of(r, noise);
-      error[r] = track_error(n.tracks[r], n.truth[r]);
+      error[r] = error_of(n, r, usual);
       columns[r] = geometry_columns(n, r, filter);
       const Eigen::MatrixXd white = filter.whiten(columns[r]);
       A += white.transpose() * white;
@@ -244,14 +246,14 @@ NoiseEstimate estimate_noise(const NominalReplay& nominal, const NoiseModel& lea
   NoiseModel start;
   start.position_sd_m = std::hypot(position, rounding_m / M_SQRT2);
   start.heading_sd_rad = std::hypot(heading, rounding_m * M_SQRT2 / recording.robot.wheelbase_m);
-  const std::vector<Difference> repeated = differences(nominal, 0);
+  const std::vector<Difference> repeated = differences(nominal, start, 0);
   const auto log_likelihood = [&](const NoiseModel& noise) { return replicate_log_likelihood(repeated, noise); };
   if (recording.truth_kind == "endpoints") {
     const auto posterior = [&](const NoiseModel& noise) { return log_likelihood(noise) + log_prior(noise, start); };
     return {most_likely(start, posterior), false, {}};
   }
   if (!repeated.empty()) {
-    const auto of_walks = [seldom = differences(nominal, kSeldom_s)](const NoiseModel& noise) {
+    const auto of_walks = [seldom = differences(nominal, start, kSeldom_s)](const NoiseModel& noise) {
       return replicate_log_likelihood(seldom, noise);
     };
     return {no_less_than(least, most_likely(start, log_likelihood), repeats(nominal)), true, of_walks};

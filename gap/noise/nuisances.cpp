@@ -226,6 +226,9 @@ Nuisances make_nuisances(const NominalReplay& nominal, const std::vector<TrackFi
   for (std::size_t t = 0; t < layout.trackers.size(); ++t) {
     if (may_be_exact(layout.trackers[t])) n.markers.push_back(layout.tracker(t));
   }
+  for (std::size_t g = 0; g < groups.rolling.size() && layout.trackers.size() > 1; ++g) {
+    for (const ContactDifference d : {kTurnScale, kArcScale}) n.turns.push_back(column_of(g, d));
+  }
   n.engine_sd = Eigen::VectorXd::Zero(layout.size());
   n.engine_sd.head(layout.tracker(0)) = n.shared_sds.front().head(layout.tracker(0));
   n.unexplained_sd = Eigen::VectorXd::Zero(layout.size());

@@ -1,6 +1,7 @@
 #include "gap/noise/track_filter.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 namespace umbsim::gap {
@@ -9,7 +10,18 @@ namespace {
 // Standard deviations of the start pose before anything is seen: the tracker's frame and the start are free.
 constexpr double kStart_m = 0.02;
 constexpr double kStart_rad = 0.2;
-constexpr double kHeadingSeen_rad = 1e-3;
+
+// By how much headings differ about each sample: the mean over three samples on either side, of fewer at the ends.
+std::vector<double> averaged_turns(const std::vector<Pose2>& predicted, const std::vector<Pose2>& actual) {
+  const std::size_t n = std::min(predicted.size(), actual.size());
+  std::vector<double> averaged(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t reach = std::min({std::size_t(3), k, n - 1 - k});
+    for (std::size_t i = k - reach; i <= k + reach; ++i)
+      averaged[k] += (actual[i].theta_rad - predicted[i].theta_rad) / double(2 * reach + 1);
+  }
+  return averaged;
+}
 
 }  // namespace
 
@@ -55,7 +67,7 @@ TrackFilter::TrackFilter(const std::vector<Pose2>& path, const std::vector<doubl
   const Eigen::Matrix3d R = Eigen::Vector3d(p, p, noise.heading_sd_rad * noise.heading_sd_rad).asDiagonal();
   Eigen::Matrix3d P = Eigen::Vector3d(kStart_m * kStart_m, kStart_m * kStart_m, kStart_rad * kStart_rad).asDiagonal();
   steps_.reserve(path.size());
-  sees_headings_ = noise.heading_sd_rad <= kHeadingSeen_rad;
+  sees_headings_ = noise.sees_headings();
   for (std::size_t k = 0; k < path.size(); ++k) {
     Step step;
     step.transition.setIdentity();
@@ -87,10 +99,17 @@ TrackFilter::TrackFilter(const std::vector<Pose2>& path, const std::vector<doubl
 Eigen::VectorXd TrackFilter::error(const std::vector<Pose2>& predicted, const std::vector<Pose2>& actual) const {
   Eigen::VectorXd error = track_error(predicted, actual);
   if (!sees_headings_) return error;
-  const std::vector<Eigen::Vector3d> motions = motion_errors(predicted, actual);
-  for (Eigen::Index k = 1; k < Eigen::Index(steps_.size()); ++k) {
-    error.segment<3>(3 * k) =
-        steps_[std::size_t(k)].transition * error.segment<3>(3 * (k - 1)) + motions[std::size_t(k)];
+  const std::vector<double> turned = averaged_turns(predicted, actual);
+  for (std::size_t k = 1; k < turned.size(); ++k) {
+    const Pose2 before{actual[k - 1].x_m, actual[k - 1].y_m, predicted[k - 1].theta_rad + turned[k - 1]};
+    const Pose2 motion = inverse(before) * actual[k];
+    const double misread_rad = error[3 * Eigen::Index(k) - 1] - turned[k - 1];
+    const Pose2 foretold = inverse(predicted[k - 1]) * predicted[k];
+    const Pose2 as_read{motion.x_m + misread_rad * foretold.y_m, motion.y_m - misread_rad * foretold.x_m, 0};
+    const Pose2 wrong = inverse(foretold) * as_read;
+    const double turn_rad = error[3 * Eigen::Index(k) + 2] - error[3 * Eigen::Index(k) - 1];
+    error.segment<3>(3 * Eigen::Index(k)) = steps_[k].transition * error.segment<3>(3 * Eigen::Index(k) - 3) +
+                                            Eigen::Vector3d(wrong.x_m, wrong.y_m, turn_rad);
   }
   return error;
 }

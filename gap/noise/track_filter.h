@@ -15,6 +15,9 @@ struct NoiseModel {
   double position_sd_m = 3e-4;      ///< of one absolute position, with the encoder's rounding
   double heading_sd_rad = 3e-4;
   double clock_s = 1e-4;  ///< scatter of the moments at which poses were taken
+
+  /// A total station sees no headings, whatever stands in their column.
+  bool sees_headings() const { return heading_sd_rad < 1; }
 };
 
 /// Roughness k of the floor (noise.wheel_noise_m_per_sqrt_m of a scenario) that makes the heading walk by this much:
@@ -50,8 +53,8 @@ class TrackFilter {
 
   /// Errors of `actual` against `predicted` as this filter carries them along: what was wrong with each motion from
   /// sample to sample, propagated to first order. So they are linear in what acts on the motions, however far the
-  /// tracks part; the pose error itself has the square of a heading error times the way. Where headings are known to
-  /// more than a milliradian only: their noise would be squared as well. Else the same as track_error().
+  /// tracks part; the pose error itself has the square of a heading error times the way. They are linear in what single
+  /// headings are read wrong by, too. Of a tracker that sees no headings the same as track_error().
   Eigen::VectorXd error(const std::vector<Pose2>& predicted, const std::vector<Pose2>& actual) const;
 
   TrackColumns whiten(const TrackColumns& columns) const;

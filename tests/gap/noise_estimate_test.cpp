@@ -69,5 +69,18 @@ TEST(NoiseEstimate, AHeaderThatIsFarOffLeavesTheWalk) {
   }
 }
 
+// Where the counts turn the robot by a radian too much, runs that repeat each other part in directions of their own.
+TEST(NoiseEstimate, ALongWayWithAWrongHeaderLeavesTheWalk) {
+  for (const int per_direction : {1, 2}) {
+    Scenario s = squares(2, per_direction);
+    s.course.laps = 15;
+    s.truth.position_sd_m = 3e-4;
+    s.truth.heading_sd_rad = 3e-4;
+    s.effects.push_back(testing::effect("wheelbase", {{"relative", 0.03}}));
+    const auto [made, estimated] = made_and_estimated(s, 3e-4);
+    EXPECT_NEAR(std::log(estimated / made), 0, std::log(1.4)) << per_direction;
+  }
+}
+
 }  // namespace
 }  // namespace umbsim::gap

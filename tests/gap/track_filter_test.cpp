@@ -224,7 +224,7 @@ TEST(TrackFilterError, IsLinearInWhatActsOnTheMotions) {
   EXPECT_GT(poses, 20 * carried);
 }
 
-// Small errors, and the tracker's noise, are the same either way; headings that a tracker hardly sees are not squared.
+// Small errors, and the tracker's noise, are the same either way.
 TEST(TrackFilterError, SmallErrorsAreThePoses) {
   const std::vector<Pose2> path = bent_path();
   const std::vector<double> rolled_m = rolled(path);
@@ -232,9 +232,26 @@ TEST(TrackFilterError, SmallErrorsAreThePoses) {
   const Eigen::VectorXd error = track_error(path, seen);
   const TrackFilter filter(path, rolled_m, kNoise);
   EXPECT_LT((filter.error(path, seen) - error).lpNorm<Eigen::Infinity>(), 0.03 * error.lpNorm<Eigen::Infinity>());
-  NoiseModel camera = kNoise;
-  camera.heading_sd_rad = 0.03;
-  EXPECT_EQ(TrackFilter(path, rolled_m, camera).error(path, seen), error);
+}
+
+// Headings that are read wrong by 0.04 rad would shorten a way of 7 m by 6 mm if their squares counted.
+TEST(TrackFilterError, MisreadHeadingsAreNotSquared) {
+  const std::vector<Pose2> path = bent_path();
+  std::vector<Pose2> seen = path;
+  RandomStream random(3, "misread");
+  for (Pose2& pose : seen) pose.theta_rad += random.normal(0, 0.04);
+  const Eigen::VectorXd error = TrackFilter(path, rolled(path), kNoise).error(path, seen);
+  const Eigen::Vector3d last = error.tail<3>();
+  std::printf("misread headings move the end by %.2f and %.2f mm\n", 1e3 * last[0], 1e3 * last[1]);
+  EXPECT_LT(last.head<2>().norm(), 0.002);
+}
+
+// A total station sees no headings, whatever stands in their column: only where the robot was counts.
+TEST(TrackFilterError, UnseenHeadingsTurnNoMotion) {
+  const std::vector<Pose2> path = bent_path(), other = turned_more(path, 0.01);
+  NoiseModel total_station = kNoise;
+  total_station.heading_sd_rad = M_PI;
+  EXPECT_EQ(TrackFilter(path, rolled(path), total_station).error(path, other), track_error(path, other));
 }
 
 }  // namespace
