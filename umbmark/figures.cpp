@@ -43,8 +43,9 @@ ReturnError return_error(const RecordedRun& run, const OdometryParameters& odome
 }
 
 ReturnError return_error(const std::string& run, const Pose2& absolute, const Pose2& calculated) {
+  const int laps = std::max(1, int(std::lround(std::abs(calculated.theta_rad) / (2 * M_PI))));
   return {run, absolute.x_m - calculated.x_m, absolute.y_m - calculated.y_m,
-          absolute.theta_rad - calculated.theta_rad};
+          absolute.theta_rad - calculated.theta_rad, laps};
 }
 
 std::vector<ReturnError> return_errors(const Recording& recording, const OdometryParameters& odometry,
@@ -61,7 +62,9 @@ Cluster cluster(std::vector<ReturnError> errors) {
   c.errors = std::move(errors);
   const double n = double(c.errors.size());
   if (n == 0) return c;
+  c.laps = 0;
   for (const ReturnError& e : c.errors) {
+    c.laps += e.laps / n;
     c.centroid_x_m += e.x_m / n;
     c.centroid_y_m += e.y_m / n;
     c.heading_rad += e.theta_rad / n;
@@ -144,15 +147,17 @@ ErrorEstimate heading_estimate(double alpha_rad, double beta_rad, double side_m,
 Umbmark umbmark(Cluster cw, Cluster ccw, double side_m, double nominal_wheelbase_m) {
   if (cw.errors.empty() || ccw.errors.empty()) throw std::invalid_argument("UMBmark needs both directions");
   Umbmark u;
-  const double L4 = -4 * side_m;
   u.e_max_syst_m = std::max(cw.r_cg_m, ccw.r_cg_m);
-  u.endpoint = error_estimate((cw.centroid_x_m + ccw.centroid_x_m) / L4, (cw.centroid_x_m - ccw.centroid_x_m) / L4,
-                              side_m, nominal_wheelbase_m);
-  u.endpoint_y = error_estimate((cw.centroid_y_m - ccw.centroid_y_m) / L4, (cw.centroid_y_m + ccw.centroid_y_m) / L4,
-                                side_m, nominal_wheelbase_m);
+  // A lap's turns and legs, by a number of each direction's runs: a sum over both tells the one, a difference the other.
+  const auto both = [&](double of_cw, double of_ccw) { return of_cw / cw.laps + of_ccw / ccw.laps; };
+  const double L4 = -4 * side_m;
+  u.endpoint = error_estimate(both(cw.centroid_x_m, ccw.centroid_x_m) / L4,
+                              both(cw.centroid_x_m, -ccw.centroid_x_m) / L4, side_m, nominal_wheelbase_m);
+  u.endpoint_y = error_estimate(both(cw.centroid_y_m, -ccw.centroid_y_m) / L4,
+                                both(cw.centroid_y_m, ccw.centroid_y_m) / L4, side_m, nominal_wheelbase_m);
   // Four turns and four legs: theta_cw = 4 (alpha + beta), theta_ccw = 4 (-alpha + beta).
-  u.heading = heading_estimate((cw.heading_rad - ccw.heading_rad) / 8, (cw.heading_rad + ccw.heading_rad) / 8, side_m,
-                               nominal_wheelbase_m);
+  u.heading = heading_estimate(both(cw.heading_rad, -ccw.heading_rad) / 8, both(cw.heading_rad, ccw.heading_rad) / 8,
+                               side_m, nominal_wheelbase_m);
   const double total = std::abs(u.heading.alpha_rad) + std::abs(u.heading.beta_rad);
   if (total > kRoundOff_rad) {
     u.type_a_share = std::abs(u.heading.alpha_rad) / total;

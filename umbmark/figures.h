@@ -16,6 +16,7 @@ struct ReturnError {
   double x_m = 0;
   double y_m = 0;
   double theta_rad = 0;
+  int laps = 1;  ///< squares that the run is: whole turns of the calculated heading
 };
 
 /// The end points of one direction.
@@ -30,6 +31,7 @@ struct Cluster {
   double sd_heading_rad = 0;
   double sd_m = 0;                ///< sqrt((sd_x^2 + sd_y^2) / 2), the spread along any one axis
   double standard_error_m = 0;    ///< of the centroid along one axis: sd_m / sqrt(runs)
+  double laps = 1;                ///< of a run, on the mean
 };
 
 /// One estimate of the two dominant systematic errors.
@@ -94,7 +96,8 @@ ErrorShares error_shares(const Cluster& cluster);
 /// Of all runs of several directions together, each direction weighing the same. One run of a direction has no spread.
 ErrorShares error_shares(const std::vector<ErrorShares>& directions);
 
-/// Square runs only. `nominal_wheelbase_m` is the odometry's. Throws std::invalid_argument if a direction is empty.
+/// Square runs only. `nominal_wheelbase_m` is the odometry's. Of runs of several laps each lap has its share of the
+/// return error: of headings exactly, of positions to first order. Throws std::invalid_argument if a direction is empty.
 Umbmark umbmark(Cluster cw, Cluster ccw, double side_m, double nominal_wheelbase_m);
 
 /// (docs: recorded runs without bumps, both directions.) Throws InputError if the recording is not a square, or lacks a

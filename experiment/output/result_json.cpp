@@ -154,7 +154,8 @@ Json cluster_json(const Cluster& c) {
           {"heading_rad", c.heading_rad},   {"runs", c.errors.size()},
           {"r_cg_m", c.r_cg_m},             {"sd_x_m", c.sd_x_m},
           {"sd_y_m", c.sd_y_m},             {"sd_m", c.sd_m},
-          {"sd_heading_rad", c.sd_heading_rad}, {"standard_error_m", c.standard_error_m}};
+          {"sd_heading_rad", c.sd_heading_rad}, {"standard_error_m", c.standard_error_m},
+          {"laps", c.laps}};
 }
 
 Json estimate_json(const ErrorEstimate& e) {

@@ -263,7 +263,7 @@ TEST(OwnBias, IsThatOfThePublishedFigures) {
     const TrueRobot truth = TrueRobot::with(c.e_d, c.e_b);
     const LogFactors factors(std::log(truth.left_radius_m / 0.075), std::log(truth.right_radius_m / 0.075),
                              std::log(c.e_b));
-    const std::vector<SquareCourse> course{{4, 0, 1}};
+    const std::vector<SquareCourse> course{{4, 0, 1, 1}};
     const LogFactors answer = endpoint_answer(course, nominal_odometry(), factors);
     EXPECT_NEAR(std::exp(kEd.dot(answer)), c.said_e_d, 6e-6);
     EXPECT_NEAR(std::exp(answer[2]), c.said_e_b, 6e-6);

@@ -66,6 +66,20 @@ TEST(LabmateExact, PublishedFiguresAndCalibration) {
   EXPECT_EQ(r.cost.solver_fallbacks, 0);
 }
 
+// Runs of several squares are calibrated as runs of one.
+TEST(Recovery, SeveralLapsAreCalibratedAsOne) {
+  const ExperimentResult r = run_experiment(shipped("labmate_exact", {"course.laps=3", "calibration.method=heading"}), 0);
+  ASSERT_TRUE(r.umbmark);
+  ASSERT_FALSE(r.passes.empty());
+  const double after_mm = 1000 * r.passes.back().umbmark.e_max_syst_m;
+  std::cout << fmt::format("three laps: E_max {:.3f} -> {:.4f} mm, E_d {:+.1e}, E_b {:+.1e}\n",
+                           1000 * r.umbmark->e_max_syst_m, after_mm, r.umbmark->heading.e_d - r.injected.e_d,
+                           r.umbmark->heading.e_b - r.injected.e_b);
+  EXPECT_NEAR(r.umbmark->heading.e_d, r.injected.e_d, kRecovered);
+  EXPECT_NEAR(r.umbmark->heading.e_b, r.injected.e_b, kRecovered);
+  EXPECT_LE(after_mm, kCalibrated_mm);
+}
+
 TEST(Recovery, HeadingFormFindsWhatWasInjected) {
   double worst_d = 0, worst_b = 0;
   for (const double e_d : {0.99, 1.0, 1.01}) {

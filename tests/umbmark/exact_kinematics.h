@@ -45,7 +45,7 @@ constexpr double kTicks = 1e9;  // per revolution: half a tick is 2e-10 m
 /// turns in place, with ticks and absolute poses at their ends. `extra_turn_rad` is added to the true heading on the
 /// first leg: bumps, towards the inner side.
 inline RecordedRun square_run(const TrueRobot& robot, const OdometryParameters& believed, bool cw, double side_m = 4,
-                              double bump_turn_rad = 0, const PlanePose& start = {}) {
+                              double bump_turn_rad = 0, const PlanePose& start = {}, int laps = 1) {
   RecordedRun run;
   run.id = run.direction = cw ? "cw" : "ccw";
   const double sense = cw ? -1 : 1;
@@ -64,7 +64,7 @@ inline RecordedRun square_run(const TrueRobot& robot, const OdometryParameters& 
     truth.roll(left_rad * robot.left_radius_m, right_rad * robot.right_radius_m, robot.wheelbase_m);
   };
   record();
-  for (int leg = 0; leg < 4; ++leg) {
+  for (int leg = 0; leg < 4 * laps; ++leg) {
     move(side_m, side_m);
     if (leg == 0) truth.heading += sense * bump_turn_rad;
     record();
@@ -75,10 +75,12 @@ inline RecordedRun square_run(const TrueRobot& robot, const OdometryParameters& 
   return run;
 }
 
-inline Recording squares(const TrueRobot& robot, const OdometryParameters& believed, double side_m = 4) {
+inline Recording squares(const TrueRobot& robot, const OdometryParameters& believed, double side_m = 4,
+                         int laps = 1) {
   Recording recording;
   recording.path.side_m = side_m;
-  recording.runs = {square_run(robot, believed, true, side_m), square_run(robot, believed, false, side_m)};
+  recording.runs = {square_run(robot, believed, true, side_m, 0, {}, laps),
+                    square_run(robot, believed, false, side_m, 0, {}, laps)};
   return recording;
 }
 

@@ -54,6 +54,26 @@ TEST(Umbmark, FormulaBiasIsThePublishedOneAndTheHeadingFormHasNone) {
   }
 }
 
+// Each lap has its share of the return error: headings to the last digit, positions as long as angles are small.
+TEST(Umbmark, ManyLapsSayWhatOneSays) {
+  for (const int laps : {2, 3, 10}) {
+    for (const double size : {0.01, 0.1, 1.0}) {
+      const double e_d = 1 + size * 0.00084, e_b = 1 - size * 0.01126;
+      const Umbmark u = umbmark(squares(TrueRobot::with(e_d, e_b), nominal_odometry(), 4, laps), nominal_odometry());
+      std::cout << laps << " laps, E_d " << e_d << ", E_b " << e_b << ": endpoint form off by " << u.endpoint.e_d - e_d
+                << " " << u.endpoint.e_b - e_b << ", heading form " << u.heading.e_d - e_d << " " << u.heading.e_b - e_b
+                << "\n";
+      EXPECT_EQ(u.cw.laps, laps);
+      EXPECT_NEAR(u.heading.e_d, e_d, 1e-9);
+      EXPECT_NEAR(u.heading.e_b, e_b, 1e-9);
+      // What the laps turn it by, 4 alpha each, mixes x and y.
+      const double turned_rad = 4 * laps * M_PI / 2 * (1 - e_b);
+      EXPECT_NEAR(u.endpoint.e_b, e_b, (1 - e_b) * turned_rad);
+      EXPECT_NEAR(u.endpoint.e_d, e_d, (1 - e_b) * turned_rad);
+    }
+  }
+}
+
 // The formulas of NUMBERS.md, written out once more with R as it stands there.
 TEST(Umbmark, EstimatesAreThoseOfBorensteinAndFeng) {
   const Umbmark u = umbmark(squares(TrueRobot::with(1.004, 1.01), nominal_odometry()), nominal_odometry());

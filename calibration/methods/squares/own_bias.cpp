@@ -20,11 +20,11 @@ Pose2 moved(double way_m, double turn_rad, double wheelbase_m, const LogFactors&
 Cluster returned(const SquareCourse& course, const OdometryParameters& nominal, const LogFactors& truth, double sense) {
   Pose2 X_SB;
   const double turn_rad = sense * M_PI / 2;
-  for (int leg = 0; leg < 4; ++leg) {
+  for (int leg = 0; leg < 4 * course.laps; ++leg) {
     X_SB = X_SB * moved(course.side_m - 2 * course.turn_radius_m, 0, nominal.wheelbase_m, truth);
     X_SB = X_SB * moved(course.turn_radius_m * M_PI / 2, turn_rad, nominal.wheelbase_m, truth);
   }
-  return cluster({{"", X_SB.x_m, X_SB.y_m, X_SB.theta_rad - 4 * turn_rad}});
+  return cluster({{"", X_SB.x_m, X_SB.y_m, X_SB.theta_rad - 4 * course.laps * turn_rad, course.laps}});
 }
 
 }  // namespace

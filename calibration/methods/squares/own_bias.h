@@ -12,6 +12,7 @@ struct SquareCourse {
   double side_m = 0;
   double turn_radius_m = 0;  ///< 0: turns in place
   double weight = 0;
+  int laps = 1;
 };
 
 /// What UMBmark's endpoint form, small angles and all, says of a robot with these true factors whose odometry is sure to

@@ -107,7 +107,8 @@ Fit with_warnings(Fit fit, const Runs& runs, const OdometryParameters& nominal) 
     // The same from the y coordinates; both must agree within what small angles leave out.
     const ErrorEstimate& x = s.figures.endpoint;
     const ErrorEstimate& y = s.figures.endpoint_y;
-    const double se_rad = std::hypot(s.figures.cw.standard_error_m, s.figures.ccw.standard_error_m) / (4 * s.side_m);
+    const Cluster &cw = s.figures.cw, &ccw = s.figures.ccw;
+    const double se_rad = std::hypot(cw.standard_error_m / cw.laps, ccw.standard_error_m / ccw.laps) / (4 * s.side_m);
     const double apart = std::max(std::abs(x.alpha_rad - y.alpha_rad), std::abs(x.beta_rad - y.beta_rad));
     const double small = 0.1 * std::max(std::abs(x.alpha_rad), std::abs(x.beta_rad));
     if (apart > 4 * se_rad + small) {
@@ -142,7 +143,8 @@ Fit fit_endpoint(const Runs& runs, const OdometryParameters& nominal) {
   std::vector<SquareCourse> courses;
   for (const Squares& s : squares(runs, nominal)) {
     if (!s.turn_radius_m) return with_warnings(std::move(fit), runs, nominal);
-    courses.push_back({s.side_m, *s.turn_radius_m, s.runs * s.side_m * s.side_m});
+    const int laps = int(std::lround((s.figures.cw.laps + s.figures.ccw.laps) / 2));
+    courses.push_back({s.side_m, *s.turn_radius_m, s.runs * s.side_m * s.side_m, laps});
   }
   fit.own_bias = own_bias(courses, nominal, fit.factors);
   fit = with_warnings(std::move(fit), runs, nominal);

@@ -87,26 +87,29 @@ export function workedSection(data: RunData): Section | null {
   const [side, b] = [data.side_m, data.wheelbase_m];
   if (!u?.cw || !u.ccw || !isNumber(side) || !isNumber(b) || side <= 0) return null;
   const [xCw, xCcw] = [u.cw.centroid_x_m, u.ccw.centroid_x_m];
-  const fromEnds = (sign: 1 | -1) => (xCw + sign * xCcw) / (-4 * side);
+  const laps = u.cw.laps ?? 1;
+  if (laps !== (u.ccw.laps ?? 1)) return null;
+  const [times, ofLaps] = laps === 1 ? ["", ""] : [`${fixed(laps, 0)} \u00b7 `, " n"];
+  const fromEnds = (sign: 1 | -1) => (xCw + sign * xCcw) / (-4 * laps * side);
   const ends = (sign: string, value: number, name: string): Step => ({
-    name, formula: html`(x<sub>cg,cw</sub> ${sign} x<sub>cg,ccw</sub>) / (\u22124 L)`,
-    numbers: html`(${mm1(xCw)} ${sign} ${bracket(mm1(xCcw))}) mm / (\u22124 \u00b7 ${fixed(side * 1000, 0)} mm)`, result: radDeg(value),
+    name, formula: html`(x<sub>cg,cw</sub> ${sign} x<sub>cg,ccw</sub>) / (\u22124${ofLaps} L)`,
+    numbers: html`(${mm1(xCw)} ${sign} ${bracket(mm1(xCcw))}) mm / (\u22124 \u00b7 ${times}${fixed(side * 1000, 0)} mm)`, result: radDeg(value),
     key: `endpoint.${name === "\u03b1" ? "alpha" : "beta"}_rad`});
   const turned = (sign: string, value: number, name: string): Step => ({
-    name, formula: html`(\u03b8<sub>cw</sub> ${sign} \u03b8<sub>ccw</sub>) / 8`,
-    numbers: html`(${fixed(u.cw.heading_rad * DEG, 4)}° ${sign} ${bracket(fixed(u.ccw.heading_rad * DEG, 4))}°) / 8`, result: radDeg(value),
+    name, formula: html`(\u03b8<sub>cw</sub> ${sign} \u03b8<sub>ccw</sub>) / ${laps === 1 ? "8" : "(8 n)"}`,
+    numbers: html`(${fixed(u.cw.heading_rad * DEG, 4)}° ${sign} ${bracket(fixed(u.ccw.heading_rad * DEG, 4))}°) / ${laps === 1 ? "8" : `(8 \u00b7 ${fixed(laps, 0)})`}`, result: radDeg(value),
     key: `heading.${name === "\u03b1" ? "alpha" : "beta"}_rad`});
   const headings = isNumber(u.cw.heading_rad) && isNumber(u.ccw.heading_rad);
   const [alpha, beta] = [fromEnds(1), fromEnds(-1)];
-  const [alphaH, betaH] = [(u.cw.heading_rad - u.ccw.heading_rad) / 8, (u.cw.heading_rad + u.ccw.heading_rad) / 8];
+  const [alphaH, betaH] = [(u.cw.heading_rad - u.ccw.heading_rad) / (8 * laps), (u.cw.heading_rad + u.ccw.heading_rad) / (8 * laps)];
   return {
     id: "worked", title: "The calculation, line by line", content: html`
       <p>From the end points to the two errors and the corrections, with the numbers of this result. L = ${fixed(side, 3)} m is the side of the square,
-        b = ${mm1(b)} mm the nominal wheelbase; lengths are rounded for display only.</p>
+        b = ${mm1(b)} mm the nominal wheelbase${laps === 1 ? "" : `, n = ${fixed(laps, 0)} the squares of a run`}; lengths are rounded for display only.</p>
       ${list("How far off", "The centres of the two clusters of figure 1, and the worse of them.", centres(u))}
       ${list("Endpoint form (Borenstein & Feng)", "α changes the total turn alike in both directions (type A), β bends the legs (type B). Small angles are taken for granted.", [
         ends("+", alpha, "\u03b1"), ends("\u2212", beta, "\u03b2"), ...byEnds(alpha, beta, side, b)])}
-      ${headings ? list("Heading form", "The same from the return headings: four turns and four legs each way, exact at any angle.", [
+      ${headings ? list("Heading form", "The same from the return headings: four turns and four legs a square, exact at any angle.", [
         turned("\u2212", alphaH, "\u03b1"), turned("+", betaH, "\u03b2"), ...byHeadings(alphaH, betaH, side, b)]) : raw("")}`,
   };
 }
