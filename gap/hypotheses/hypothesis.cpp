@@ -113,7 +113,9 @@ Hypothesis both_miss() {
 }
 
 // A payload that nobody told of, by its moments about the axle's middle; the rest of its mass lies over that.
-Hypothesis load() {
+Hypothesis load(double mass_kg) {
+  constexpr double kShare = 1.0 / 8;  // of the robot's mass
+  constexpr double kAside_m = 0.025;  // of all of it
   const EffectInfo& info = find_effect("load_shift");
   const EffectValues base = neutral_effect(info).values;
   const std::size_t mass = index_of(info, "payload_kg");
@@ -121,7 +123,9 @@ Hypothesis load() {
   const std::size_t left = index_of(info, "left_m");
   Hypothesis hypothesis{"load_shift",
                         "payload",
-                        {positive("payload_kg", 1, 5), signed_one("ahead_kgm", 0.2, 1), signed_one("left_kgm", 0.2, 1)},
+                        {positive("payload_kg", kShare * mass_kg / 5, kShare * mass_kg),
+                         signed_one("ahead_kgm", kAside_m * mass_kg / 5, kAside_m * mass_kg),
+                         signed_one("left_kgm", kAside_m * mass_kg / 5, kAside_m * mass_kg)},
                         {},
                         {},
                         true,
@@ -196,7 +200,7 @@ Hypothesis scrub_hypothesis() {
 }
 
 std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revolution, double wheel_width_m,
-                                         double motor_inertia_kgm2) {
+                                         double motor_inertia_kgm2, double mass_kg) {
   const GivesWay motor = motors(motor_inertia_kgm2);
   std::vector<Hypothesis> all = {
       logarithmic("over_acceleration", "factor", 1, 2, -3, 6),
@@ -235,8 +239,8 @@ std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revol
              {positive("left_probability", 1e-3, 0.005), positive("right_probability", 1e-3, 0.005)}),
       direct("encoder_missed_counts", "speed", {positive("probability_per_radps", 3e-4, 1e-3)}),
       direct("encoder_latency", "delay", {positive("seconds", 0.02, 0.1)}),
-      load(),
-      felt_through(soft_tyres(), load()),
+      load(mass_kg),
+      felt_through(soft_tyres(), load(mass_kg)),
       direct("tyre_compliance", "both", {positive("metres_per_newton", 5e-7, 3e-6)}),
       costing(kNarrowContact, squared("contact_patch", "width_m", 0.01, 0.03, wheel_width_m)),
       direct("tyre_creep", "along and across", {{"along", 0, 5e-3, 0.02, 0, 0.1}, {"across", 0, 5e-3, 0.02, 0, 0.1}}),

@@ -55,9 +55,9 @@ Eigen::VectorXd prior_sd_of(const std::vector<Hypothesis>& hypotheses);
 
 /// Every hypothesis of the catalogue that needs no search for a place or moment.
 /// `period_s` and `ticks_per_revolution`: of the recording's encoders. `wheel_width_m`: no contact is wider; 0: not
-/// known. `motor_inertia_kgm2`: that each motor moves as the robot speeds up.
+/// known. `motor_inertia_kgm2`: that each motor moves as the robot speeds up. `mass_kg`: of the robot, which loads go by.
 std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revolution, double wheel_width_m = 0,
-                                         double motor_inertia_kgm2 = 0.1);
+                                         double motor_inertia_kgm2 = 0.1, double mass_kg = 40);
 
 /// A caster that drags against turning, on tyres that creep along their way: turns on the spot and arcs come out small
 /// by shares of their own (docs/calibration.md, scrub). How much it drags is free, about zero.

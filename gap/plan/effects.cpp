@@ -67,7 +67,7 @@ std::vector<PlannedHypothesis> planned_hypotheses(const Model& model, const std:
   const Recording& recording = model.recording();
   std::vector<PlannedHypothesis> all;
   std::vector<Hypothesis> plain = plain_hypotheses(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution,
-                                                   model.wheel_width_m(), model.motor_inertia_kgm2());
+                                                   model.wheel_width_m(), model.motor_inertia_kgm2(), model.mass_kg());
   std::erase_if(plain, [&](const Hypothesis& f) { return wanted.count(f.effect) == 0; });
   for (Hypothesis& f : drivable(model, std::move(plain))) all.push_back(planned(std::move(f)));
   const Pose2 right_wheel{0, -recording.robot.wheelbase_m / 2, 0};

@@ -40,7 +40,7 @@ bool by_secant(const Hypothesis& h) { return !h.from_zero && h.parameters.size()
 Screen::Screen(const Model& model, const std::set<std::string>& excluded) : model_(model), excluded_(excluded) {
   const Recording& recording = model.recording();
   for (const Hypothesis& f : plain_hypotheses(1 / recording.encoder_rate_hz, recording.robot.ticks_per_revolution,
-                                              model.wheel_width_m(), model.motor_inertia_kgm2())) {
+                                              model.wheel_width_m(), model.motor_inertia_kgm2(), model.mass_kg())) {
     if (excluded.count(f.effect) > 0 || !may_show(f.effect, model.command_features())) continue;
     hypotheses_.push_back(f);
     // Samples that are rarer by a little already lag by up to a period: a longer interval says little of these.
