@@ -1,10 +1,10 @@
 #include "umbmark/figures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-
-#include <fmt/format.h>
 
 #include "core/error.h"
 
@@ -44,8 +44,8 @@ ReturnError return_error(const RecordedRun& run, const OdometryParameters& odome
 
 ReturnError return_error(const std::string& run, const Pose2& absolute, const Pose2& calculated) {
   const int laps = std::max(1, int(std::lround(std::abs(calculated.theta_rad) / (2 * M_PI))));
-  return {run, absolute.x_m - calculated.x_m, absolute.y_m - calculated.y_m,
-          absolute.theta_rad - calculated.theta_rad, laps};
+  return {run, absolute.x_m - calculated.x_m, absolute.y_m - calculated.y_m, absolute.theta_rad - calculated.theta_rad,
+          laps};
 }
 
 std::vector<ReturnError> return_errors(const Recording& recording, const OdometryParameters& odometry,
@@ -148,7 +148,8 @@ Umbmark umbmark(Cluster cw, Cluster ccw, double side_m, double nominal_wheelbase
   if (cw.errors.empty() || ccw.errors.empty()) throw std::invalid_argument("UMBmark needs both directions");
   Umbmark u;
   u.e_max_syst_m = std::max(cw.r_cg_m, ccw.r_cg_m);
-  // A lap's turns and legs, by a number of each direction's runs: a sum over both tells the one, a difference the other.
+  // A lap's turns and legs, by a number of each direction's runs: a sum over both tells the one, a difference the
+  // other.
   const auto both = [&](double of_cw, double of_ccw) { return of_cw / cw.laps + of_ccw / ccw.laps; };
   const double L4 = -4 * side_m;
   u.endpoint = error_estimate(both(cw.centroid_x_m, ccw.centroid_x_m) / L4,

@@ -25,21 +25,21 @@ struct Cluster {
   double centroid_x_m = 0;
   double centroid_y_m = 0;
   double heading_rad = 0;
-  double r_cg_m = 0;              ///< distance of the centroid from the origin: the systematic part
-  double sd_x_m = 0;              ///< sample standard deviations: the non-systematic part; 0 for one run
+  double r_cg_m = 0;  ///< distance of the centroid from the origin: the systematic part
+  double sd_x_m = 0;  ///< sample standard deviations: the non-systematic part; 0 for one run
   double sd_y_m = 0;
   double sd_heading_rad = 0;
-  double sd_m = 0;                ///< sqrt((sd_x^2 + sd_y^2) / 2), the spread along any one axis
-  double standard_error_m = 0;    ///< of the centroid along one axis: sd_m / sqrt(runs)
-  double laps = 1;                ///< of a run, on the mean
+  double sd_m = 0;              ///< sqrt((sd_x^2 + sd_y^2) / 2), the spread along any one axis
+  double standard_error_m = 0;  ///< of the centroid along one axis: sd_m / sqrt(runs)
+  double laps = 1;              ///< of a run, on the mean
 };
 
 /// One estimate of the two dominant systematic errors.
 struct ErrorEstimate {
-  double alpha_rad = 0;  ///< type A error of each turn: same sense in both directions, from the wheelbase
-  double beta_rad = 0;   ///< type B error of each leg: opposite senses, from unequal diameters
-  double e_d = 1;        ///< D_R / D_L
-  double e_b = 1;        ///< b_actual / b_nominal
+  double alpha_rad = 0;     ///< type A error of each turn: same sense in both directions, from the wheelbase
+  double beta_rad = 0;      ///< type B error of each leg: opposite senses, from unequal diameters
+  double e_d = 1;           ///< D_R / D_L
+  double e_b = 1;           ///< b_actual / b_nominal
   double left_factor = 1;   ///< c_L = 2 / (E_d + 1)
   double right_factor = 1;  ///< c_R = 2 / (1/E_d + 1)
 };
@@ -48,11 +48,11 @@ struct ErrorEstimate {
 struct Umbmark {
   Cluster cw;
   Cluster ccw;
-  double e_max_syst_m = 0;  ///< max(r_cg,cw, r_cg,ccw)
-  ErrorEstimate endpoint;   ///< from the return positions, small-angle (Borenstein & Feng 1996)
-  ErrorEstimate endpoint_y; ///< the same from the y coordinates: the cross-check
-  ErrorEstimate heading;    ///< from the return headings (Jung & Chung's idea), exact
-  double type_a_share = 0;  ///< |alpha| / (|alpha| + |beta|), heading form; 0 if both vanish
+  double e_max_syst_m = 0;   ///< max(r_cg,cw, r_cg,ccw)
+  ErrorEstimate endpoint;    ///< from the return positions, small-angle (Borenstein & Feng 1996)
+  ErrorEstimate endpoint_y;  ///< the same from the y coordinates: the cross-check
+  ErrorEstimate heading;     ///< from the return headings (Jung & Chung's idea), exact
+  double type_a_share = 0;   ///< |alpha| / (|alpha| + |beta|), heading form; 0 if both vanish
   double type_b_share = 0;
 };
 
@@ -68,12 +68,12 @@ struct ErrorShares {
 
 /// Extended UMBmark (Borenstein 1994).
 struct ExtendedUmbmark {
-  Cluster cw;   ///< of the bumped runs
+  Cluster cw;  ///< of the bumped runs
   Cluster ccw;
-  double cw_mean_abs_heading_error_rad = 0;   ///< mean |e_theta - plain mean|
+  double cw_mean_abs_heading_error_rad = 0;  ///< mean |e_theta - plain mean|
   double ccw_mean_abs_heading_error_rad = 0;
-  double mean_abs_heading_error_rad = 0;      ///< the sum of both
-  double per_bump_heading_error_rad = 0;      ///< mean per direction and bump; 0 if the number of bumps is unknown
+  double mean_abs_heading_error_rad = 0;  ///< the sum of both
+  double per_bump_heading_error_rad = 0;  ///< mean per direction and bump; 0 if the number of bumps is unknown
 };
 
 /// Return errors of the runs of one direction, plain or bumped. Odometry is computed from the ticks.
@@ -97,7 +97,8 @@ ErrorShares error_shares(const Cluster& cluster);
 ErrorShares error_shares(const std::vector<ErrorShares>& directions);
 
 /// Square runs only. `nominal_wheelbase_m` is the odometry's. Of runs of several laps each lap has its share of the
-/// return error: of headings exactly, of positions to first order. Throws std::invalid_argument if a direction is empty.
+/// return error: of headings exactly, of positions to first order. Throws std::invalid_argument if a direction is
+/// empty.
 Umbmark umbmark(Cluster cw, Cluster ccw, double side_m, double nominal_wheelbase_m);
 
 /// (docs: recorded runs without bumps, both directions.) Throws InputError if the recording is not a square, or lacks a

@@ -8,9 +8,9 @@ namespace umbsim::intake {
 /// on, and its last one. n is the same along the run. Encoders and end points stay as they are.
 Recording thinned_truth(Recording recording, double most_hz);
 
-/// The recording with at most `most_hz` > 0 readings of the encoders per second, as above but by the declared rate, which
-/// becomes that of what is left. Counts are sums, so that none is lost; commands are those of the readings that are
-/// left. The truth stays as it is.
+/// The recording with at most `most_hz` > 0 readings of the encoders per second, as above but by the declared rate,
+/// which becomes that of what is left. Counts are sums, so that none is lost; commands are those of the readings that
+/// are left. The truth stays as it is.
 Recording thinned_counts(Recording recording, double most_hz);
 
 }  // namespace umbsim::intake

@@ -23,9 +23,8 @@ bool same(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
 void Model::look_without_effects() {
   products_of_nuisances_ = products_of_nuisances();
   unmoved_ = {};
-  std::vector<Eigen::VectorXd> residual = residuals(without_effects_);
-  unmoved_.grams = grams(residual, {});
-  unmoved_.residuals = std::move(residual);
+  const std::vector<Eigen::VectorXd> residual = residuals(without_effects_);
+  unmoved_ = {residual, grams(residual, {})};
 }
 
 std::vector<Eigen::VectorXd> Model::residuals(const Predicted& predicted) const {

@@ -3,9 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <set>
 
 #include "gap/noise/counts_noise.h"
@@ -160,8 +158,7 @@ std::vector<RunGram> Model::grams(const std::vector<Eigen::VectorXd>& residual,
     const Eigen::Index kept = 1 + shared + effects;
     Eigen::MatrixXd given(residual[r].size(), 1 + effects + more);
     Eigen::VectorXd sd(own + more);
-    std::vector<Eigen::Index> at_given{0};
-    std::vector<Eigen::Index> at_nuisances;
+    std::vector<Eigen::Index> at_given{0}, at_nuisances;
     given.col(0) = residual[r];
     if (effects > 0) given.middleCols(1, effects) = columns[r];
     sd.head(own) = nuisances_.own_sd[r];
@@ -204,11 +201,6 @@ double Model::rows() const {
   return rows;
 }
 
-double Model::motor_inertia_kgm2() const {
-  const double radius_m = recording().robot.wheel_radius_m;
-  return std::max(1e-6, mass_kg() / 2 * radius_m * radius_m);
-}
-
 std::vector<std::size_t> Model::all_runs() const {
   std::vector<std::size_t> runs(recording().runs.size());
   for (std::size_t r = 0; r < runs.size(); ++r) runs[r] = r;
@@ -219,9 +211,7 @@ std::vector<std::size_t> Model::one_of_each() const {
   std::vector<std::size_t> first;
   std::set<std::string> seen;
   for (const std::size_t r : all_runs()) {
-    if (seen.insert(std::to_string(campaign_->part_of[r]) + nominal_.conditions[r] + recording().runs[r].direction)
-            .second)
-      first.push_back(r);
+    if (seen.insert(condition(r)).second) first.push_back(r);
   }
   return first;
 }

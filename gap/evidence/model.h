@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -119,8 +121,7 @@ class Model {
   void take_for_another_engines();
   /// This model, were engines to differ by little.
   Model with_little_differences() const;
-  /// This model, were turns of each recording as large as effects make them: a twin is to foretell all kinds of driving
-  /// itself, where a diagnosis allows for tyres that scrub in each otherwise (Scatter::turns_between).
+  /// This model, were tyres to scrub alike in all kinds of driving (Scatter::turns_between), as a twin foretells.
   Model with_turns_alike() const;
   double noise_floor_m() const { return noise_floor_m_; }
   bool replicated() const { return replicated_; }
@@ -131,7 +132,9 @@ class Model {
   double wheel_width_m() const { return simulator_.wheel_width_m; }  ///< of the drive wheels; 0: not known
   double mass_kg() const { return simulator_.mass_kg; }
   /// That each motor moves as the robot speeds up, at the wheel.
-  double motor_inertia_kgm2() const;
+  double motor_inertia_kgm2() const {
+    return std::max(1e-6, mass_kg() / 2 * std::pow(recording().robot.wheel_radius_m, 2));
+  }
   int nuisances() const { return int(nuisance_sd().size()); }
   /// Of another engine's recording with exact servos, as long as nothing is known of its tracker.
   const Eigen::VectorXd& nuisance_sd() const { return nuisances_.usual_sd; }

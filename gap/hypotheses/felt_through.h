@@ -24,10 +24,10 @@ GivesWay tyres();
 /// Tyres give way under the wheels' load: a loaded wheel rolls on a smaller radius. Poses tell.
 GivesWay soft_tyres();
 
-/// An effect that does nothing but pull or load, felt through what gives way. What is seen is pull times how much gives way, in
-/// which it is linear, and hardly either of them: so the numbers of `pull`, which it acts in proportion to, are those
-/// that it would have if what gives way were typical. A fit begins where pull and give are as likely as they may be
-/// with the product that derivatives foretell.
+/// An effect that does nothing but pull or load, felt through what gives way. What is seen is pull times how much gives
+/// way, in which it is linear, and hardly either of them: so the numbers of `pull`, which it acts in proportion to, are
+/// those that it would have if what gives way were typical. A fit begins where pull and give are as likely as they may
+/// be with the product that derivatives foretell.
 Hypothesis felt_through(const GivesWay& gives_way, Hypothesis pull);
 
 /// Toed wheels scrub, and how that slows and turns the robot depends on how softly the tyres grip.

@@ -55,7 +55,8 @@ Eigen::VectorXd prior_sd_of(const std::vector<Hypothesis>& hypotheses);
 
 /// Every hypothesis of the catalogue that needs no search for a place or moment.
 /// `period_s` and `ticks_per_revolution`: of the recording's encoders. `wheel_width_m`: no contact is wider; 0: not
-/// known. `motor_inertia_kgm2`: that each motor moves as the robot speeds up. `mass_kg`: of the robot, which loads go by.
+/// known. `motor_inertia_kgm2`: that each motor moves as the robot speeds up. `mass_kg`: of the robot, which loads go
+/// by.
 std::vector<Hypothesis> plain_hypotheses(double period_s, double ticks_per_revolution, double wheel_width_m = 0,
                                          double motor_inertia_kgm2 = 0.1, double mass_kg = 40);
 

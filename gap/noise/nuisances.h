@@ -86,7 +86,7 @@ struct Nuisances {
   double lead_s = 0;         ///< of the poses of the first (Scatter)
   Eigen::VectorXd usual_sd;  ///< of a hand-mounted tracker, little differences and exact servos: runs are planned so
   std::vector<Eigen::Index> markers;  ///< of trackers that may be exact: first of two numbers, the point that each sees
-  std::vector<Eigen::Index> turns;  ///< of several recordings: by which turns of each kind are off
+  std::vector<Eigen::Index> turns;    ///< of several recordings: by which turns of each kind are off
   Eigen::VectorXd mount;  ///< where trackers that were mounted by hand are; 0 of exact and free ones, and of all else
   Eigen::VectorXd unexplained_sd;       ///< of all, if errors of no particular cause stood behind them
   std::vector<Eigen::MatrixXd> shared;  ///< one number for all runs that it acts in

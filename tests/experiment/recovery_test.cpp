@@ -68,7 +68,8 @@ TEST(LabmateExact, PublishedFiguresAndCalibration) {
 
 // Runs of several squares are calibrated as runs of one.
 TEST(Recovery, SeveralLapsAreCalibratedAsOne) {
-  const ExperimentResult r = run_experiment(shipped("labmate_exact", {"course.laps=3", "calibration.method=heading"}), 0);
+  const ExperimentResult r =
+      run_experiment(shipped("labmate_exact", {"course.laps=3", "calibration.method=heading"}), 0);
   ASSERT_TRUE(r.umbmark);
   ASSERT_FALSE(r.passes.empty());
   const double after_mm = 1000 * r.passes.back().umbmark.e_max_syst_m;

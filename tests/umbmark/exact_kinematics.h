@@ -75,8 +75,7 @@ inline RecordedRun square_run(const TrueRobot& robot, const OdometryParameters& 
   return run;
 }
 
-inline Recording squares(const TrueRobot& robot, const OdometryParameters& believed, double side_m = 4,
-                         int laps = 1) {
+inline Recording squares(const TrueRobot& robot, const OdometryParameters& believed, double side_m = 4, int laps = 1) {
   Recording recording;
   recording.path.side_m = side_m;
   recording.runs = {square_run(robot, believed, true, side_m, 0, {}, laps),
