@@ -73,7 +73,7 @@ TEST(NoiseEstimate, AHeaderThatIsFarOffLeavesTheWalk) {
 TEST(NoiseEstimate, ALongWayWithAWrongHeaderLeavesTheWalk) {
   for (const int per_direction : {1, 2}) {
     Scenario s = squares(2, per_direction);
-    s.course.laps = 15;
+    s.course.laps = 8;
     s.truth.position_sd_m = 3e-4;
     s.truth.heading_sd_rad = 3e-4;
     s.effects.push_back(testing::effect("wheelbase", {{"relative", 0.03}}));
