@@ -11,11 +11,10 @@ constexpr std::size_t kFewCounts = 50;    // say nothing
 constexpr std::size_t kFirstCounts = 30;  // that the coarse look takes in
 constexpr std::size_t kCandidates = 200;  // narrow steps that are followed from one look to the next
 constexpr double kNarrowest = 1.05;
-constexpr double kNarrow = 4.2;  // up to here counts tell by those that never come
-constexpr double kUnseen_m =
-    1e-5;                        // a rim's way by which no odometry is judged: narrow steps that move it less are none
-constexpr double kSmallest = 4;  // change of counts from which on these tell by where they lie
-constexpr double kFewest = 6;    // counts of a step that rounding does not hide where no two readings are one apart
+constexpr double kNarrow = 4.2;     // up to here counts tell by those that never come
+constexpr double kUnseen_m = 1e-5;  // a rim's way that no odometry is judged by: narrow steps below it are none
+constexpr double kSmallest = 4;     // change of counts from which on these tell by where they lie
+constexpr double kFewest = 6;       // counts of a step that rounding does not hide where no two readings are one apart
 constexpr double kCoherent = 0.8;
 constexpr double kEvery = 0.5;   // the same of changes, which rounding moves by more
 constexpr double kSeldom = 0.2;  // share of readings in which a wheel stands that turns by several steps otherwise

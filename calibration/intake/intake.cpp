@@ -23,8 +23,8 @@ constexpr double kFarFromHome = 0.1;  // of a square's way, by which a run may m
 constexpr double kOtherClock = 1.5;   // durations that differ so much over one way are in other units
 constexpr double kSameWay = 0.3;      // log of how far ways may differ that are thought to be one
 
-// Readings of the encoders per second that are used. What robots do is slower than a few hertz, and a driver that
-// replays commands every 10 ms misses none of it: more readings tell nothing more, and take memory and time.
+// Readings of the encoders per second that are used. What robots do is slower than a few hertz: more readings hardly
+// tell more, and take memory and time.
 constexpr double kCounts_hz = 100;
 
 // How much of what the wheels turn lies after the truth's end or before its start.

@@ -114,8 +114,7 @@ Hypothesis both_miss() {
 
 // A payload that nobody told of, by its moments about the axle's middle; the rest of its mass lies over that.
 Hypothesis load(double mass_kg) {
-  constexpr double kShare = 1.0 / 8;  // of the robot's mass
-  constexpr double kAside_m = 0.025;  // of all of it
+  const double sd_kg = mass_kg / 8, sd_kgm = 0.025 * mass_kg;
   const EffectInfo& info = find_effect("load_shift");
   const EffectValues base = neutral_effect(info).values;
   const std::size_t mass = index_of(info, "payload_kg");
@@ -123,9 +122,8 @@ Hypothesis load(double mass_kg) {
   const std::size_t left = index_of(info, "left_m");
   Hypothesis hypothesis{"load_shift",
                         "payload",
-                        {positive("payload_kg", kShare * mass_kg / 5, kShare * mass_kg),
-                         signed_one("ahead_kgm", kAside_m * mass_kg / 5, kAside_m * mass_kg),
-                         signed_one("left_kgm", kAside_m * mass_kg / 5, kAside_m * mass_kg)},
+                        {positive("payload_kg", sd_kg / 5, sd_kg), signed_one("ahead_kgm", sd_kgm / 5, sd_kgm),
+                         signed_one("left_kgm", sd_kgm / 5, sd_kgm)},
                         {},
                         {},
                         true,

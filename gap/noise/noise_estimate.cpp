@@ -181,8 +181,7 @@ Eigen::MatrixXd geometry_columns(const NominalReplay& n, std::size_t run, const 
 }
 
 // Fitting and estimating in turn.
-NoiseModel from_what_is_left(const NominalReplay& n, const NoiseModel& usual) {
-  NoiseModel noise = usual;
+NoiseModel from_what_is_left(const NominalReplay& n, NoiseModel noise) {
   const auto filter_of = [&](std::size_t r, const NoiseModel& model) {
     return TrackFilter(n.tracks[r], n.rolled_m[r], model, n.seen[r], n.velocity[r]);
   };
@@ -193,7 +192,7 @@ NoiseModel from_what_is_left(const NominalReplay& n, const NoiseModel& usual) {
     std::vector<Eigen::MatrixXd> columns(n.runs());
     for (std::size_t r = 0; r < n.runs(); ++r) {
       const TrackFilter filter = filter_of(r, noise);
-      error[r] = error_of(n, r, usual);
+      error[r] = filter.error(n.tracks[r], n.truth[r]);
       columns[r] = geometry_columns(n, r, filter);
       const Eigen::MatrixXd white = filter.whiten(columns[r]);
       A += white.transpose() * white;
